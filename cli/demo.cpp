@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+
+#include "command.h"
+
+namespace eigencrust::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The bundled scan: beside an installed program, else in the source tree it was built from.
+fs::path bundled_scan() {
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  for (const fs::path& folder :
+       {program.parent_path() / EIGENCRUST_EXAMPLES_INSTALLED, fs::path(EIGENCRUST_EXAMPLES_SOURCE)}) {
+    const fs::path scan = folder / "teapot_scan.ply";
+    if (fs::is_regular_file(scan, ignored)) return scan.lexically_normal();
+  }
+  throw Error(ErrorKind::input, "demo", "the bundled scan teapot_scan.ply was not found",
+              "run it from the source tree or install the program");
+}
+
+} // namespace
+
+int demo_verb(const Arguments& arguments) {
+  std::string folder = "eigencrust-demo";
+  CLI::App app("Reconstructs the bundled teapot scan: mesh, report and pictures of both.", "eigencrust demo");
+  app.add_option("-o,--output", folder, "Folder for teapot.ply, teapot.json, scan.png and teapot.png")
+      ->capture_default_str();
+  if (const Parsed parsed = parse(app, arguments); parsed.done) return parsed.status;
+  const std::string scan = bundled_scan().string();
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder))
+    throw Error(ErrorKind::input, folder, "the folder cannot be created", "choose another one with -o");
+  const std::string mesh = (fs::path(folder) / "teapot.ply").string(),
+                    report = (fs::path(folder) / "teapot.json").string();
+  const auto show = [](const std::vector<std::string>& words) {
+    std::cout << "$ eigencrust";
+    for (const std::string& word : words) std::cout << " " << word;
+    std::cout << std::endl;
+    return words;
+  };
+  const auto call = [&](int (*verb)(const Arguments&), std::vector<std::string> words) {
+    show(words);
+    std::vector<std::string> command{"eigencrust"};
+    command.insert(command.end(), words.begin(), words.end());
+    const bool named = words.front() == "check" || words.front() == "render";
+    return verb({{words.begin() + (named ? 1 : 0), words.end()}, command});
+  };
+  int status = call(reconstruct_verb, {scan, "-o", mesh, "--report", report});
+  if (status != 0) return status;
+  const std::vector<std::string> camera{"--up", "z", "--azimuth", "-60", "--elevation", "25"};
+  for (const auto& [input, picture] : {std::pair{scan, "scan.png"}, std::pair{mesh, "teapot.png"}}) {
+    std::vector<std::string> words{"render", input, "-o", (fs::path(folder) / picture).string()};
+    words.insert(words.end(), camera.begin(), camera.end());
+    status = call(render_verb, words);
+    if (status != 0) return status;
+  }
+  return 0;
+}
+
+} // namespace eigencrust::cli

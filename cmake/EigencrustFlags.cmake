@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Warnings and sanitizers for one of the project's own targets.
+function(eigencrust_flags target)
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wcast-qual -Wnon-virtual-dtor)
+  # Without fused multiply-add a result does not depend on which instructions the compiler picked.
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
+  if(EIGENCRUST_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(EIGENCRUST_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${EIGENCRUST_SANITIZE} -fno-omit-frame-pointer
+                                             -fno-sanitize-recover=all)
+    target_link_options(${target} PUBLIC -fsanitize=${EIGENCRUST_SANITIZE})
+  endif()
+endfunction()

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The one call: points in, closed manifold mesh out.
+#pragma once
+
+#include <vector>
+
+#include <eigencrust/error.h>
+#include <eigencrust/observer.h>
+#include <eigencrust/options.h>
+#include <eigencrust/report.h>
+#include <eigencrust/types.h>
+#include <eigencrust/version.h>
+
+namespace eigencrust {
+
+struct Result {
+  /// Vertices are input points bit for bit (unless smoothed), with all their attributes and
+  /// `source_index`, the row in the input.
+  TriangleMesh mesh;
+  Report report;
+  Tetrahedralization tetrahedralization;
+  Labels labels; ///< of every tetrahedron, as the surface was taken from them
+};
+
+/// Reconstructs the surface that `cloud` was sampled from.
+///
+/// Guarantees: every edge of the mesh belongs to exactly two triangles (closed), with
+/// options.manifold also every vertex to one fan (manifold); triangles are counter-clockwise seen from
+/// outside; vertices are distinct points. The mesh is checked; what does not hold (a fault of the
+/// program) is named in report.broken_guarantees. Exceptions: options.facade leaves the mesh open.
+/// The result depends on the set of points and the options alone, not on the order of the rows
+/// (but for source_index of duplicates: the smallest row) nor on the number of threads.
+///
+/// \throws Error{usage}      options out of range
+///         Error{input}      fewer than 5 distinct finite points, all coplanar or collinear, mismatched arrays
+///         Error{no_surface} the labels leave no surface
+///         Error{cancelled}  the observer asked for it
+///         std::bad_alloc    memory exhausted
+Result reconstruct(const PointCloud& cloud, const Options& options = {}, Observer& observer = *default_observer());
+
+} // namespace eigencrust

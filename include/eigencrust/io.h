@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Point clouds and meshes from and to files. One file per format in src/io, one registry.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <eigencrust/types.h>
+
+namespace eigencrust {
+
+struct ReadOptions {
+  /// Names of the columns of a text file in order ("x", "y", "z", any other name keeps that column as
+  /// an attribute, "-" skips it). Empty: from the header line, else x y z and the rest as columns.
+  std::vector<std::string> columns;
+};
+
+/// Reads a point cloud. The format follows the extension (ply, xyz, txt, asc, csv, pts, obj, off,
+/// stl; upper case too), and the content where the extension says nothing. From a mesh its vertices are
+/// taken, those of an STL once per distinct position.
+/// Text numbers are read independently of the locale. NaN and infinite rows are kept.
+/// \throws Error{input} naming file and line (text) or byte offset (binary) when the file is missing,
+///         truncated, malformed or of an unknown format; memory is never allocated by a count that the
+///         file claims but does not hold.
+PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// Reads a mesh (ply, obj, off, stl); polygons are split into triangle fans. STL corners with equal
+/// coordinates become one vertex.
+/// \throws Error{input} as above, also for an index out of range.
+TriangleMesh read_mesh(const std::filesystem::path& path);
+
+/// Appends `next` to `cloud` as one more scan: scan indices are shifted so that scans stay apart (a
+/// cloud without scan index counts as one scan). Attributes are joined by name; rows of a file that
+/// lacks one get NaN (floating point) or 0; differing types are widened to one that holds both.
+void append_scan(PointCloud& cloud, PointCloud next);
+
+/// Scan numbers from a file: raw bytes (.u8), or text with one number per row.
+/// \throws Error{input} when there are not `points` of them.
+std::vector<std::uint32_t> read_scan_index(const std::filesystem::path& path, std::size_t points);
+
+enum class CoordinateType : std::uint8_t {
+  automatic, ///< float32 where that keeps all vertices apart and within 1e-3 of `spacing`, else float64
+  float32,
+  float64
+};
+
+struct WriteOptions {
+  CoordinateType coordinates = CoordinateType::automatic;
+  double spacing = 0;                ///< median sample spacing; 0: the median edge length is taken
+  std::vector<std::string> comments; ///< written where the format has room for them
+};
+
+struct WriteResult {
+  CoordinateType coordinates = CoordinateType::float64; ///< what was chosen
+  Vec3 offset;                                          ///< subtracted from the coordinates (STL far from the origin)
+  std::vector<std::string> warnings;                    ///< what the format could not hold
+};
+
+/// Writes a mesh (ply binary little-endian, obj, off, stl binary), atomically: into a temporary file
+/// beside `path`, flushed, then renamed; on any failure the temporary is removed and `path` untouched.
+/// Text formats use the shortest digits that read back as the same double.
+/// PLY keeps every attribute under its own name and type (an attribute named x, y or z, or twice, gets
+/// a suffix). OBJ and OFF keep colours only, STL nothing; what is lost is listed in the warnings.
+/// STL knows float32 only: where that would move a vertex by more than 1e-3 of the spacing the box's
+/// centre is subtracted and reported as `offset`.
+/// \throws Error{input} (unwritable, unknown extension), Error{guarantee} when float32 would make two
+///         vertices equal even with an offset.
+WriteResult write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options = {});
+
+/// Writes a cloud with its attributes (ply, xyz/txt/asc/csv), atomically as above.
+WriteResult write_point_cloud(const std::filesystem::path& path, const PointCloud& cloud,
+                              const WriteOptions& options = {});
+
+/// Is there a writer for this extension? For refusing a name before the work starts.
+bool can_write_mesh(const std::filesystem::path& path);
+bool can_write_point_cloud(const std::filesystem::path& path);
+
+/// Writes any file atomically: `write` fills the stream of a temporary file in the same folder.
+/// \throws Error{input} when it cannot be created, written or renamed; whatever `write` throws.
+void write_file_atomically(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
+
+/// Lower-case hexadecimal SHA-256 of the file's bytes.
+std::string sha256_of_file(const std::filesystem::path& path);
+
+// Typed access to attributes.
+
+/// Value of row i (not a list) as a double; 32-bit integers are exact.
+double attribute_value(const Attribute& attribute, std::size_t row);
+/// An attribute made of doubles, floats or integers; `type` decides how they are stored.
+Attribute make_attribute(std::string name, ScalarType type, std::span<const double> values);
+Attribute make_attribute(std::string name, std::span<const std::uint32_t> values);
+Attribute make_attribute(std::string name, std::span<const float> values);
+/// The rows `rows` of an attribute, in that order.
+Attribute gather(const Attribute& attribute, std::span<const std::uint32_t> rows);
+/// The attribute of that name, or null.
+const Attribute* find_attribute(const std::vector<Attribute>& attributes, std::string_view name);
+
+} // namespace eigencrust

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Every option and its default, written once. The command line and the documentation follow this file.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <eigencrust/types.h>
+
+namespace eigencrust {
+
+enum class Preset : std::uint8_t {
+  robust, ///< the measured best
+  paper   ///< Kolluri, Shewchuk and O'Brien (2004) to the letter
+};
+enum class Eigensolver : std::uint8_t {
+  multigrid, ///< signed aggregation multigrid: about ten steps at any size
+  lanczos    ///< the reference: thousands of matrix products on large clouds
+};
+enum class SecondStage : std::uint8_t {
+  harmonic,   ///< both supernodes fixed at +1 and -1, the rest solved for
+  eigenvector ///< §3.4: smallest eigenvector of the second graph
+};
+/// When tetrahedra below the noise scale lose their say (§3.3).
+enum class Questionable : std::uint8_t {
+  before, ///< their poles never enter the pole graph
+  after,  ///< their labels are removed after the first partition, as in the paper
+  never
+};
+enum class GlobalSign : std::uint8_t {
+  vote,     ///< long Voronoi cells beside the known outside decide; an outlier has none
+  supernode ///< §3.2: the sign of the outside supernode's own component
+};
+enum class Smoothing : std::uint8_t {
+  laplacian, ///< §3.6: each vertex to the centroid of its neighbours; shrinks
+  taubin     ///< alternating steps that keep the volume (Taubin 1995)
+};
+enum class Axis : std::uint8_t { plus_x, minus_x, plus_y, minus_y, plus_z, minus_z };
+
+/// ℓ of §3.3: the diagonal of the squares of the range grid.
+struct GridSpacing {
+  enum class Kind : std::uint8_t {
+    automatic, ///< √2 × the median nearest-sample distance within a scan; off for a single scan
+    off,       ///< no questionable poles
+    length,    ///< `value` in the unit of the input
+    percent    ///< `value` percent of the bounding box's diagonal
+  };
+  Kind kind = Kind::automatic;
+  double value = 0;
+};
+
+/// Which pieces of the surface are kept.
+struct KeepComponents {
+  enum class Kind : std::uint8_t {
+    supported, ///< all but specks and pieces made of long edges; what goes is listed in the report
+    all,
+    largest,
+    count ///< the `count` largest by number of vertices
+  };
+  Kind kind = Kind::supported;
+  std::uint32_t count = 1;
+};
+
+struct SolverOptions {
+  Eigensolver eigensolver = Eigensolver::multigrid;
+  /// Stop when signs no longer change; otherwise on the residual alone.
+  bool stop_on_stable_signs = true;
+  /// Share of all nodes that may still change sign in each of two steps running; in (0, 1].
+  double stable_share = 1e-5;
+  /// Residual of D^-1/2 L D^-1/2 at which a vector counts as converged; > 0.
+  double tolerance = 1e-8;
+  /// Steps on the finest level at most (Lanczos: restarts); >= 1.
+  std::uint32_t max_steps = 60;
+};
+
+/// What one call of reconstruct() may be told. The defaults are those of the preset `robust`.
+struct Options {
+  Preset preset = Preset::robust;
+  SolverOptions solver;
+  /// How unlabelled tetrahedra are settled (§3.4).
+  SecondStage second_stage = SecondStage::harmonic;
+  GridSpacing grid_spacing;
+  Questionable questionable = Questionable::before;
+  /// How inside is told from outside once the two sides are apart (§3.2).
+  GlobalSign global_sign = GlobalSign::vote;
+  /// Make the surface a manifold by relabelling (§3.5).
+  bool manifold = true;
+  KeepComponents components;
+  /// Smoothing steps (§3.6); 0: none. Vertices then leave the samples.
+  std::uint32_t smooth = 0;
+  Smoothing smoothing = Smoothing::laplacian;
+  /// Points in space known to be outside or inside (§3.1); input coordinates.
+  std::vector<Vec3> outside_points, inside_points;
+  /// One-sided scan: outside is in front, along this direction (§3.1). The result is then open.
+  std::optional<Axis> facade;
+  /// Threads; 0: one per core. The result does not depend on it.
+  unsigned threads = 0;
+
+  /// The options of a preset.
+  static Options of(Preset preset);
+};
+
+// Names as the command line and the report write them.
+std::string to_string(Preset value);
+std::string to_string(Eigensolver value);
+std::string to_string(SecondStage value);
+std::string to_string(Questionable value);
+std::string to_string(GlobalSign value);
+std::string to_string(Smoothing value);
+std::string to_string(Axis value);
+std::string to_string(const GridSpacing& value);
+std::string to_string(const KeepComponents& value);
+
+// The reverse. \throws Error{usage} naming the accepted values.
+Preset parse_preset(const std::string& text);
+Eigensolver parse_eigensolver(const std::string& text);
+SecondStage parse_second_stage(const std::string& text);
+Questionable parse_questionable(const std::string& text);
+Smoothing parse_smoothing(const std::string& text);
+Axis parse_axis(const std::string& text);
+GridSpacing parse_grid_spacing(const std::string& text);  ///< auto, off, LENGTH or N%
+KeepComponents parse_components(const std::string& text); ///< supported, all, largest or N
+Vec3 parse_point(const std::string& text);                ///< x,y,z
+
+/// \throws Error{usage} naming the first option out of range.
+void check_options(const Options& options);
+
+} // namespace eigencrust

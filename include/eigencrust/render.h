@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A picture of a mesh or a cloud without a display.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include <eigencrust/types.h>
+
+namespace eigencrust {
+
+struct RenderOptions {
+  std::uint32_t width = 1200, height = 900; ///< pixels, 16 to 16384
+  double azimuth = 30;                      ///< degrees: where the camera stands around the up axis (0: x to the right)
+  double elevation = 20;                    ///< degrees above the horizon
+  double roll = 0;                          ///< degrees that the camera turns clockwise around its line of sight
+  double zoom = 1;                          ///< 1: what is seen of the object just fits the picture
+  Vec3 up{0, 1, 0};                         ///< which axis points up
+  double point_size = 2;                    ///< pixels, for clouds
+  /// Keep what lies at dot(p - clip_point, clip_normal) <= 0; zero normal: no clipping (a cutaway).
+  Vec3 clip_normal, clip_point;
+  bool wireframe = false; ///< draw the triangles' edges
+  bool use_colors = true; ///< red/green/blue attributes where there are any
+  std::array<std::uint8_t, 3> front{222, 205, 178}, back{196, 58, 64}, background{255, 255, 255};
+};
+
+struct Image {
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint8_t> rgb; ///< 3 × width × height, rows from the top
+};
+
+/// Flat-shaded orthographic picture, 3 × 3 supersampled; back faces in `back`, so that a surface turned
+/// inside out is seen at once. A mesh without triangles is drawn as points: in the light of their
+/// normals (nx, ny, nz) where there are any, else the brighter the nearer. Hollows and creases are
+/// darkened. The same pixels for any number of threads.
+/// \throws Error{usage} for options out of range, Error{input} when nothing finite is left to draw.
+Image render(const TriangleMesh& mesh, const RenderOptions& options = {});
+
+/// Puts pictures side by side, for comparisons. \throws Error{usage} unless all have one height.
+Image beside(const std::vector<Image>& images);
+
+/// Writes a PNG, atomically. \throws Error{input}
+void write_png(const std::filesystem::path& path, const Image& image);
+
+} // namespace eigencrust

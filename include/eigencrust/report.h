@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a run did, in numbers. docs/report.md describes the JSON.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <eigencrust/options.h>
+#include <eigencrust/types.h>
+#include <eigencrust/validate.h>
+
+namespace eigencrust {
+
+struct InputFile {
+  std::string path, sha256;
+  std::uint64_t points = 0;
+};
+
+struct StageReport {
+  std::string name;
+  double seconds = 0;
+  std::uint64_t peak_memory_bytes = 0; ///< of the process up to the end of the stage
+  std::vector<std::pair<std::string, double>> counts;
+};
+
+struct PartitionReport {
+  std::string stage; ///< "poles" or "tetrahedra"
+  std::uint64_t nodes = 0, edges = 0;
+  double eigenvalue = 0, residual = 0;
+  std::uint32_t iterations = 0;
+  std::vector<std::uint32_t> sign_changes;
+  std::uint32_t components = 0, free_components = 0;
+  SolverStatus status = SolverStatus::trivial;
+};
+
+struct Report {
+  std::vector<std::string> command;
+  std::vector<InputFile> files;
+  std::uint64_t points = 0, duplicates = 0, nonfinite = 0;
+  double spacing = 0; ///< median distance of a sample to its nearest sample
+  Box3 bounds;        ///< of the finite points
+  Options options;
+  std::vector<StageReport> stages;
+  std::vector<PartitionReport> partitions;
+  MeshSummary mesh;
+  double grid_spacing = 0; ///< the ℓ that was used; 0: off
+  std::vector<DroppedComponent> dropped_components;
+  std::uint64_t undecided_nodes = 0;
+  double seconds = 0;
+  std::uint64_t peak_memory_bytes = 0;
+  std::vector<std::string> warnings;
+  /// What the mesh was promised to be and is not (closed, manifold, oriented): a fault of the program.
+  std::vector<std::string> broken_guarantees;
+};
+
+/// JSON, schema 1, indented by two blanks.
+std::string to_json(const Report& report);
+/// The object under "mesh" of the report.
+std::string to_json(const MeshSummary& mesh);
+
+/// Largest resident set of this process so far, in bytes.
+std::uint64_t peak_memory_bytes();
+
+} // namespace eigencrust

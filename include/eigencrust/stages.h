@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Every stage of the method as a free function, in the paper's order: the table of contents.
+/// § numbers are those of Kolluri, Shewchuk and O'Brien, Spectral Surface Reconstruction from Noisy
+/// Point Clouds (SGP 2004). src/pipeline.cpp shows how they fit together.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <eigencrust/observer.h>
+#include <eigencrust/options.h>
+#include <eigencrust/types.h>
+
+namespace eigencrust {
+
+/// The distinct finite points, relative to the middle of their bounding box, along a Hilbert curve.
+struct Samples {
+  Vec3 origin;
+  IndexedArray<SampleIndex, Vec3> positions;
+  IndexedArray<SampleIndex, std::uint32_t> source; ///< smallest row with these coordinates
+  std::uint64_t duplicates = 0, nonfinite = 0;
+  Box3 bounds; ///< input coordinates
+};
+/// \throws Error{input} for fewer than 5 distinct finite points or more than 2^32 - 16
+Samples prepare_samples(std::span<const Vec3> points, const Threads& threads);
+
+/// Median distance of a sample to its nearest sample; 0 with fewer than two.
+/// With scan numbers (one per input row) only samples of the same scan count.
+double median_spacing(const Samples& samples, std::span<const Vec3> points, std::span<const std::uint32_t> scan_index,
+                      const Threads& threads);
+/// ℓ of §3.3 from the option; 0 means off.
+double resolve_grid_spacing(const GridSpacing& option, const Samples& samples, std::span<const Vec3> points,
+                            std::span<const std::uint32_t> scan_index, const Threads& threads);
+
+/// §3: Delaunay tetrahedra of the samples and the corners of a cube whose half side is 10 diagonals of
+/// their bounding box. \throws Error{input} when all samples are coplanar or collinear
+Tetrahedralization tetrahedralize(Samples samples, const Threads& threads);
+VertexStars vertex_stars(const Tetrahedralization& tetrahedralization, const Threads& threads);
+
+/// §3: the pole pair of every sample, the farthest circumcentres on either side.
+Poles find_poles(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Threads& threads);
+
+/// §3.1: what is known beforehand. Tetrahedra at the cube are outside (with a façade: those at its front;
+/// those whose corners are all at the back are inside), as are those that hold the user's points.
+/// \throws Error{usage} when one tetrahedron is named both, or an inside point lies at or beyond the cube
+Labels known_labels(const Tetrahedralization& tetrahedralization, std::span<const Vec3> outside_points,
+                    std::span<const Vec3> inside_points, std::optional<Axis> facade, const Threads& threads);
+
+/// §3.3: tetrahedra whose longest edge is < 4 × grid_spacing, none with a cube corner.
+std::vector<std::uint8_t> questionable_tetrahedra(const Tetrahedralization& tetrahedralization, double grid_spacing,
+                                                  const Threads& threads);
+
+/// §3.1: the signed graph on the poles with the outside supernode (0) and, when something is known to be
+/// inside, the inside supernode (1). Poles of tetrahedra in `left_out` (may be empty) are no nodes.
+PoleGraph pole_graph(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
+                     const Labels& known, std::span<const std::uint8_t> left_out, const Threads& threads);
+
+/// Called now and then with the fraction done; may throw to cancel.
+using Checkpoint = std::function<void(double)>;
+
+/// §3.2: the eigenvector of the smallest eigenvalue of L x = λ D x. Components of the graph that hold no
+/// supernode are solved on their own; the sign of each of those is arbitrary.
+/// \param component receives the component of every node, 0 being the one of the supernodes; may be null
+Partition partition_poles(const PoleGraph& graph, const SolverOptions& options, const Threads& threads,
+                          std::vector<std::uint32_t>* component = nullptr, const Checkpoint& checkpoint = {});
+
+/// §3.2: labels from the signs of the partition, added to what is known. Nodes of components without a
+/// supernode take the side that their labelled neighbours by face vote for by two thirds, else none.
+struct PoleLabels {
+  Labels labels;
+  bool reversed = false;               ///< the vote overruled the outside supernode's own sign
+  double vote = 0;                     ///< evidence for the sign chosen, in [-1, 1]; 1 = unanimous
+  std::uint64_t left_to_stage_two = 0; ///< poles of components whose side is open
+};
+PoleLabels label_poles(const Tetrahedralization& tetrahedralization, const Poles& poles, const PoleGraph& graph,
+                       const Partition& partition, std::span<const std::uint32_t> component, const Labels& known,
+                       GlobalSign global_sign, const Threads& threads);
+
+/// §3.3: removes the labels of questionable tetrahedra but for those known beforehand.
+/// \return how many
+std::uint64_t unlabel_questionable(std::span<const std::uint8_t> questionable, const Labels& known, Labels& labels);
+
+/// §3.4: one node per unlabelled tetrahedron, supernodes for all outside (0) and all inside (1) ones;
+/// a face weighs longest/shortest of its edges.
+TetrahedronGraph tetrahedron_graph(const Tetrahedralization& tetrahedralization, const Labels& labels,
+                                   const Threads& threads);
+
+/// §3.4: `eigenvector` as in the paper; `harmonic`: outside fixed at +1, inside at -1.
+Partition partition_tetrahedra(const TetrahedronGraph& graph, SecondStage method, const SolverOptions& options,
+                               const Threads& threads, const Checkpoint& checkpoint = {});
+
+/// Every tetrahedron labelled, with the stage-two component behind each label (+1 and -1 times the
+/// supernodes' magnitude for those labelled before).
+struct FinalLabels {
+  Labels labels;
+  IndexedArray<TetrahedronIndex, float> value; ///< > 0 outside
+  bool supernodes_agree = false;               ///< both supernodes on one side: the vector is useless
+};
+FinalLabels label_tetrahedra(const TetrahedronGraph& graph, const Partition& partition, Labels labels);
+
+/// §3.5: relabels tetrahedra from inside to outside until the surface is a manifold.
+struct ManifoldCounts {
+  std::uint64_t edges = 0, vertices = 0; ///< repairs of either kind
+  std::uint64_t relabelled = 0;          ///< tetrahedra
+};
+ManifoldCounts make_manifold(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
+                             FinalLabels& labels, const Checkpoint& checkpoint = {});
+
+/// §3: the faces between inside and outside, counter-clockwise seen from outside; sample_of[v] is the
+/// sample behind vertex v, coordinates are still relative to the origin.
+struct Surface {
+  TriangleMesh mesh;
+  std::vector<SampleIndex> sample_of;
+};
+Surface extract_surface(const Tetrahedralization& tetrahedralization, const Labels& labels);
+
+/// Removes pieces of the surface by `keep`; see docs/parameters.md for `supported`.
+/// \param spacing median distance of a sample to its nearest sample
+std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComponents& keep,
+                                                const Tetrahedralization& tetrahedralization, const VertexStars& stars);
+
+/// §3.6. \throws Error{usage} never; boundary vertices stay
+void smooth(TriangleMesh& mesh, Smoothing method, std::uint32_t steps, const Threads& threads);
+
+} // namespace eigencrust

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The plain values that flow between the stages, with their invariants.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace eigencrust {
+
+/// A point or vector in space, in the unit of the input coordinates.
+struct Vec3 {
+  double x = 0, y = 0, z = 0;
+
+  friend constexpr auto operator<=>(const Vec3&, const Vec3&) = default;
+};
+
+constexpr Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+constexpr Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+constexpr Vec3 operator*(double k, const Vec3& a) { return {k * a.x, k * a.y, k * a.z}; }
+constexpr double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+constexpr double squared_norm(const Vec3& a) { return dot(a, a); }
+inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
+inline double distance(const Vec3& a, const Vec3& b) { return norm(a - b); }
+inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+
+/// Axis-aligned bounding box. Empty (min > max) until something is added.
+struct Box3 {
+  Vec3 min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+           std::numeric_limits<double>::infinity()};
+  Vec3 max{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+           -std::numeric_limits<double>::infinity()};
+
+  void add(const Vec3& p) {
+    min = {std::fmin(min.x, p.x), std::fmin(min.y, p.y), std::fmin(min.z, p.z)};
+    max = {std::fmax(max.x, p.x), std::fmax(max.y, p.y), std::fmax(max.z, p.z)};
+  }
+  [[nodiscard]] bool empty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
+  [[nodiscard]] Vec3 centre() const { return 0.5 * min + 0.5 * max; }
+  [[nodiscard]] double diagonal() const { return empty() ? 0.0 : distance(min, max); }
+};
+
+/// A 32-bit index that only fits the thing it counts: a tetrahedron cannot be taken for a sample.
+template <class Tag>
+struct Index {
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t value = none;
+
+  [[nodiscard]] constexpr bool valid() const { return value != none; }
+  friend constexpr auto operator<=>(Index, Index) = default;
+};
+using SampleIndex = Index<struct SampleTag>;           ///< a distinct sample, or a cube corner
+using TetrahedronIndex = Index<struct TetrahedronTag>; ///< a Delaunay tetrahedron
+using PoleIndex = Index<struct PoleTag>;               ///< a pole: a tetrahedron that some sample chose
+using NodeIndex = Index<struct NodeTag>;               ///< a row of a SignedGraph
+
+/// A std::vector that is read with one kind of index only.
+template <class I, class T>
+class IndexedArray {
+ public:
+  IndexedArray() = default;
+  explicit IndexedArray(std::size_t n, const T& value = T{}) : values_(n, value) {}
+  explicit IndexedArray(std::vector<T> values) : values_(std::move(values)) {}
+
+  T& operator[](I i) { return values_[i.value]; }
+  const T& operator[](I i) const { return values_[i.value]; }
+  [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(values_.size()); }
+  [[nodiscard]] bool empty() const { return values_.empty(); }
+  auto begin() const { return values_.begin(); }
+  auto end() const { return values_.end(); }
+  std::vector<T>& raw() { return values_; }
+  const std::vector<T>& raw() const { return values_; }
+
+ private:
+  std::vector<T> values_;
+};
+
+/// Type of an attribute's values as the file declared it.
+enum class ScalarType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+/// Size of one value in bytes.
+constexpr std::size_t size_of(ScalarType type) {
+  switch (type) {
+    case ScalarType::int8:
+    case ScalarType::uint8:
+      return 1;
+    case ScalarType::int16:
+    case ScalarType::uint16:
+      return 2;
+    case ScalarType::int32:
+    case ScalarType::uint32:
+    case ScalarType::float32:
+      return 4;
+    case ScalarType::float64:
+      return 8;
+  }
+  return 0;
+}
+
+/// One named column (red, intensity, nx ...) kept bit for bit under its own name and type.
+struct Attribute {
+  std::string name;
+  ScalarType type = ScalarType::float32;
+  /// Values one after another in the machine's byte order: rows × size_of(type) bytes; for a list
+  /// property all rows' entries, row i being entries [offsets[i], offsets[i+1]).
+  std::vector<std::byte> values;
+  bool is_list = false;
+  ScalarType count_type = ScalarType::uint8; ///< type of the list's length in the file
+  std::vector<std::uint64_t> offsets;        ///< rows + 1 entries when is_list, else empty
+
+  [[nodiscard]] std::size_t rows() const {
+    return is_list ? (offsets.empty() ? 0 : offsets.size() - 1) : values.size() / size_of(type);
+  }
+};
+
+/// Unorganized points with whatever the files said of them.
+/// Invariants: every attribute has points.size() rows; scan_index is empty or has points.size() entries.
+struct PointCloud {
+  std::vector<Vec3> points; ///< n rows in input order; may hold NaN, infinities and duplicates
+  std::vector<Attribute> attributes;
+  std::vector<std::uint32_t> scan_index; ///< which scan each point came from; empty: one scan, or unknown
+};
+
+/// Indexed triangles; counter-clockwise seen from outside. Indices are 0-based into vertices.
+struct TriangleMesh {
+  std::vector<Vec3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Attribute> vertex_attributes;
+  std::vector<Attribute> triangle_attributes;
+};
+
+/// Delaunay tetrahedra of the samples and the eight corners of a wide cube (§3 of the paper).
+///
+/// Coordinates are relative to `origin`, the midpoint of the input's bounding box, so that clouds far
+/// from zero lose nothing. Samples are distinct and numbered along a Hilbert curve (ties
+/// lexicographic), the cube corners come last; tetrahedra are sorted by their smallest sample. Both
+/// orders depend on the set of coordinates alone: neither on the order of the rows nor on threads.
+struct Tetrahedralization {
+  Vec3 origin;
+  std::uint32_t sample_count = 0;                  ///< without the eight corners
+  IndexedArray<SampleIndex, Vec3> positions;       ///< sample_count + 8
+  IndexedArray<SampleIndex, std::uint32_t> source; ///< smallest input row of each sample; sample_count
+  /// Vertices of each tetrahedron, smallest first, second smallest next, positively oriented: vertex 3
+  /// sees (0,1,2) counter-clockwise, dot(cross(b-a, c-a), d-a) > 0.
+  IndexedArray<TetrahedronIndex, std::array<SampleIndex, 4>> tetrahedra;
+  /// Neighbour k shares the face opposite vertex k; invalid beyond the cube.
+  IndexedArray<TetrahedronIndex, std::array<TetrahedronIndex, 4>> neighbours;
+
+  [[nodiscard]] bool is_corner(SampleIndex s) const { return s.value >= sample_count; }
+  [[nodiscard]] bool touches_cube(TetrahedronIndex t) const {
+    for (const SampleIndex s : tetrahedra[t])
+      if (is_corner(s)) return true;
+    return false;
+  }
+};
+
+/// For each sample the tetrahedra around it, in increasing order (compressed rows).
+struct VertexStars {
+  std::vector<std::uint64_t> begin;         ///< positions.size() + 1
+  std::vector<TetrahedronIndex> tetrahedra; ///< 4 × number of tetrahedra
+
+  [[nodiscard]] std::span<const TetrahedronIndex> operator[](SampleIndex s) const {
+    return {tetrahedra.data() + begin[s.value], tetrahedra.data() + begin[s.value + 1]};
+  }
+};
+
+struct Sphere {
+  Vec3 centre;
+  double radius = 0;
+};
+
+/// The two poles of each sample (§3). `first` is the farther; `second` is invalid only when no
+/// circumcentre of the star makes an obtuse angle with it (never for an interior Voronoi cell).
+struct PolePair {
+  PoleIndex first, second;
+};
+struct Poles {
+  IndexedArray<PoleIndex, TetrahedronIndex> tetrahedron; ///< in order of first appearance by sample
+  IndexedArray<PoleIndex, Sphere> sphere;                ///< circumsphere of that tetrahedron
+  IndexedArray<SampleIndex, PolePair> of_sample;         ///< sample_count entries, none for corners
+};
+
+enum class Label : std::uint8_t { unlabelled = 0, inside = 1, outside = 2 };
+using Labels = IndexedArray<TetrahedronIndex, Label>;
+
+/// A symmetric weighted graph whose weights say "same side" (> 0) or "opposite sides" (< 0).
+///
+/// Ordinary nodes are stored as compressed rows without self-loops, columns increasing. Supernodes
+/// (§3.1, §3.4) touch a large share of all nodes and are kept apart, as dense columns.
+struct SignedGraph {
+  struct Supernode {
+    std::vector<float> weight; ///< to every ordinary node; 0 where there is no edge
+  };
+  std::vector<std::uint64_t> row_begin; ///< nodes + 1
+  std::vector<std::uint32_t> column;
+  std::vector<float> weight;
+  std::vector<Supernode> supernodes;
+  /// Weights between supernodes: entry [i][j] of a symmetric matrix with zero diagonal.
+  std::vector<std::vector<double>> supernode_weight;
+
+  [[nodiscard]] std::uint32_t node_count() const {
+    return row_begin.empty() ? 0 : static_cast<std::uint32_t>(row_begin.size() - 1);
+  }
+};
+
+/// The pole graph G (§3.1): which pole each node stands for. Supernode 0 is z (outside); supernode 1,
+/// when there is one, is the inside supernode.
+struct PoleGraph {
+  SignedGraph graph;
+  IndexedArray<NodeIndex, PoleIndex> pole;
+};
+
+/// The second graph (§3.4): which unlabelled tetrahedron each node stands for. Supernode 0 holds all
+/// outside, supernode 1 all inside tetrahedra.
+struct TetrahedronGraph {
+  SignedGraph graph;
+  IndexedArray<NodeIndex, TetrahedronIndex> tetrahedron;
+};
+
+enum class SolverStatus : std::uint8_t {
+  converged,     ///< residual below the tolerance asked for
+  signs_stable,  ///< stopped because signs no longer change; the residual is reported
+  consistent,    ///< eigenvalue zero: no cycle of the graph contradicts itself, signs are exact
+  not_converged, ///< step limit reached; the result is the best found
+  trivial        ///< nothing to solve (no nodes)
+};
+const char* to_string(SolverStatus status);
+
+/// Solution of one partition with the figures by which to judge it.
+struct Partition {
+  std::vector<float> value;                ///< one component per node of the graph; its sign is the side
+  std::vector<double> supernode_value;     ///< one per supernode
+  double eigenvalue = 0;                   ///< of D^-1 L; 0 for the harmonic problem
+  double residual = 0;                     ///< |D^-1/2 (Lx - λDx)| / |D^1/2 x|; relative residual if harmonic
+  std::uint32_t iterations = 0;            ///< steps on the finest level
+  std::vector<std::uint32_t> sign_changes; ///< per step on the finest level
+  std::uint32_t components = 0;            ///< of the graph, counting those without a supernode
+  std::uint32_t free_components = 0;       ///< components without a supernode
+  std::uint32_t undecided = 0;             ///< nodes left without a sign
+  SolverStatus status = SolverStatus::trivial;
+};
+
+/// One piece of surface that was not kept, so that nothing is lost silently.
+struct DroppedComponent {
+  std::uint32_t vertices = 0, triangles = 0;
+  double median_edge = 0; ///< in units of the local spacing
+  Vec3 centre;            ///< mean of its vertices, input coordinates
+};
+
+} // namespace eigencrust

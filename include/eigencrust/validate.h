@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a mesh is: closed, manifold, oriented, and the numbers that go with it. Works on any mesh.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <eigencrust/types.h>
+
+namespace eigencrust {
+
+struct ValidateOptions {
+  bool self_intersections = true;   ///< the dearest of the checks
+  bool merge_equal_vertices = true; ///< first make vertices with equal coordinates one, as readers do
+  unsigned threads = 0;             ///< 0: all cores
+};
+
+/// A set of triangles joined along shared edges.
+struct ComponentSummary {
+  std::uint32_t vertices = 0, triangles = 0;
+  std::int64_t euler = 0;
+  /// (2 - euler - boundary loops)/2 for an orientable piece with manifold edges; of a piece with
+  /// non-manifold vertices or edges the value after cutting those apart. -1 where not orientable.
+  std::int64_t genus = 0;
+};
+
+/// Counts are of the mesh after merging (if asked for). An edge is "boundary" with one triangle,
+/// "non-manifold" with more than two, "inconsistent" with two or more of which not as many run one way
+/// as the other (two running the same way, or an odd number).
+/// A vertex is non-manifold when its triangles do not form one fan (open or closed).
+/// A triangle is degenerate when two of its vertices coincide or its three vertices are collinear
+/// (exact predicate); duplicates of a triangle show as non-manifold or inconsistent edges. Triangles
+/// that name one vertex twice are counted but take no part in edges, vertices and components.
+struct MeshSummary {
+  std::uint64_t vertices = 0, triangles = 0;
+  std::uint64_t unreferenced_vertices = 0; ///< not counted in `vertices`
+  std::uint64_t boundary_edges = 0, boundary_loops = 0, nonmanifold_edges = 0, nonmanifold_vertices = 0,
+                inconsistent_edges = 0, degenerate_triangles = 0;
+  /// Pairs of triangles that intersect in more than a shared vertex or edge (shared: of equal
+  /// coordinates), degenerate ones left out; -1 if not computed.
+  std::int64_t self_intersections = -1;
+  std::uint64_t components = 0;
+  std::int64_t euler = 0, genus = 0; ///< genus: sum over the components, -1 if one is not orientable
+  double volume = 0;                 ///< signed, by the divergence theorem from the box's centre; positive = outward
+  double area = 0;
+  Box3 bounds;
+  std::vector<ComponentSummary> component_list; ///< largest first, all of them
+
+  [[nodiscard]] bool closed() const { return boundary_edges == 0 && components > 0; }
+  [[nodiscard]] bool manifold() const { return nonmanifold_edges == 0 && nonmanifold_vertices == 0; }
+  [[nodiscard]] bool oriented() const { return inconsistent_edges == 0; }
+};
+
+/// \throws Error{input} when a triangle names a vertex that does not exist or a vertex is not finite.
+MeshSummary validate(const TriangleMesh& mesh, const ValidateOptions& options = {});
+
+/// Vertices with equal coordinates made one (the first), order kept; triangles with two equal
+/// corners then stay in place, so that triangle attributes still fit.
+TriangleMesh merge_equal_vertices(const TriangleMesh& mesh);
+
+/// Component number of every triangle (joined along edges), components numbered by first triangle.
+std::vector<std::uint32_t> triangle_components(const TriangleMesh& mesh);
+
+} // namespace eigencrust

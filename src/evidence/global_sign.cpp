@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "evidence/global_sign.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geometry/nearest.h"
+#include "parallel/threads.h"
+
+namespace eigencrust {
+namespace {
+
+constexpr std::size_t neighbourhood = 20;
+
+/// 0 for cells no longer than 1.5 neighbourhoods, 1 from 3.5 (docs/decisions/0003).
+double trust(double shorter_pole, double neighbourhood_radius) {
+  return std::clamp((shorter_pole / neighbourhood_radius - 1.5) / 2, 0.0, 1.0);
+}
+
+struct Evidence {
+  double balance = 0, total = 0;
+  Evidence operator+(const Evidence& other) const { return {balance + other.balance, total + other.total}; }
+};
+
+} // namespace
+
+double outside_evidence(const Tetrahedralization& t, const Poles& poles, const PoleGraph& graph,
+                        const Partition& partition, const Labels& known, const Threads& threads) {
+  std::vector<std::uint32_t> node_of(poles.tetrahedron.size(), NodeIndex::none);
+  for (std::uint32_t node = 0; node < graph.pole.size(); ++node) node_of[graph.pole.raw()[node].value] = node;
+
+  const PointTree tree(std::span(t.positions.raw()).first(t.sample_count));
+  std::vector<std::array<float, 2>> repulsive(t.sample_count, {0, 0}); // weight counted, weight claimed; per sample
+  std::vector<std::uint32_t> target(t.sample_count, NodeIndex::none);
+  for_each_index(
+      threads, t.sample_count,
+      [&](std::size_t i) {
+        PolePair pair = poles.of_sample.raw()[i];
+        if (!pair.first.valid() || !pair.second.valid()) return;
+        if (known[poles.tetrahedron[pair.second]] == Label::outside) std::swap(pair.first, pair.second);
+        if (known[poles.tetrahedron[pair.first]] != Label::outside) return;
+        const std::uint32_t node = node_of[pair.second.value];
+        if (node == NodeIndex::none) return;
+        std::array<std::uint32_t, neighbourhood + 1> index{};
+        std::array<double, neighbourhood + 1> square{};
+        const std::size_t found = tree.nearest(t.positions.raw()[i], neighbourhood + 1, index.data(), square.data());
+        const Sphere &a = poles.sphere[pair.first], &b = poles.sphere[pair.second];
+        const Vec3& s = t.positions.raw()[i];
+        const double cosine = -dot(a.centre - s, b.centre - s) / (a.radius * b.radius);
+        const double weight = std::exp(4 + 4 * std::clamp(cosine, -1.0, 1.0));
+        repulsive[i] = {static_cast<float>(trust(std::min(a.radius, b.radius), std::sqrt(square[found - 1])) * weight),
+                        static_cast<float>(weight)};
+        target[i] = node;
+      },
+      1024);
+
+  std::vector<double> claimed(graph.pole.size(), 0);
+  Evidence sum;
+  for (std::uint32_t i = 0; i < t.sample_count; ++i) {
+    if (target[i] == NodeIndex::none) continue;
+    claimed[target[i]] += static_cast<double>(repulsive[i][1]);
+    const double weight = static_cast<double>(repulsive[i][0]);
+    const float value = partition.value[target[i]];
+    sum.balance -= value > 0 ? weight : value < 0 ? -weight : 0;
+    sum.total += weight;
+  }
+  for (std::uint32_t node = 0; node < graph.pole.size(); ++node) {
+    // What is left of the supernode's edge when the repulsive part is taken out is attraction.
+    const double weight = std::max(0.0, static_cast<double>(graph.graph.supernodes[0].weight[node]) + claimed[node]);
+    const float value = partition.value[node];
+    sum.balance += value > 0 ? weight : value < 0 ? -weight : 0;
+    sum.total += weight;
+  }
+  return sum.total > 0 ? sum.balance / sum.total : 0;
+}
+
+} // namespace eigencrust

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/nearest.h"
+
+#include <array>
+#include <cmath>
+#include <nanoflann.hpp>
+
+namespace eigencrust {
+namespace {
+
+struct Points {
+  std::span<const Vec3> points;
+
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+    return axis == 0 ? points[i].x : axis == 1 ? points[i].y : points[i].z;
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+using Tree =
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 3, std::uint32_t>;
+
+} // namespace
+
+struct PointTree::Impl {
+  Points points;
+  Tree tree;
+
+  explicit Impl(std::span<const Vec3> p) : points{p}, tree(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(16)) {
+    tree.buildIndex();
+  }
+};
+
+PointTree::PointTree(std::span<const Vec3> points) : impl_(std::make_unique<Impl>(points)) {}
+PointTree::~PointTree() = default;
+PointTree::PointTree(PointTree&&) noexcept = default;
+
+std::size_t PointTree::nearest(const Vec3& query, std::size_t k, std::uint32_t* index, double* squared_distance) const {
+  const std::array<double, 3> q{query.x, query.y, query.z};
+  return impl_->tree.knnSearch(q.data(), k, index, squared_distance);
+}
+
+std::vector<double> nearest_other(std::span<const Vec3> points, const Threads& threads) {
+  if (points.size() < 2) return {};
+  const PointTree tree(points);
+  std::vector<double> result(points.size());
+  for_each_index(
+      threads, points.size(),
+      [&](std::size_t i) {
+        std::array<std::uint32_t, 2> index{};
+        std::array<double, 2> square{};
+        tree.nearest(points[i], 2, index.data(), square.data());
+        result[i] = std::sqrt(square[1]);
+      },
+      2048);
+  return result;
+}
+
+} // namespace eigencrust

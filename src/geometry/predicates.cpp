@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/predicates.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+namespace eigencrust {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+Kernel::Point_3 to_cgal(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+} // namespace
+
+int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return static_cast<int>(CGAL::orientation(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d)));
+}
+
+bool collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return CGAL::collinear(to_cgal(a), to_cgal(b), to_cgal(c));
+}
+
+int affine_dimension(std::span<const Vec3> points) {
+  if (points.empty()) return -1;
+  const Vec3& a = points.front();
+  std::size_t i = 1;
+  while (i < points.size() && points[i] == a) ++i;
+  if (i == points.size()) return 0;
+  const Vec3& b = points[i];
+  while (i < points.size() && collinear(a, b, points[i])) ++i;
+  if (i == points.size()) return 1;
+  const Vec3& c = points[i];
+  while (i < points.size() && orientation(a, b, c, points[i]) == 0) ++i;
+  return i == points.size() ? 2 : 3;
+}
+
+} // namespace eigencrust

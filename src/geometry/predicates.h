@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Exact signs (CGAL's filtered predicates).
+#pragma once
+
+#include <eigencrust/types.h>
+#include <span>
+
+namespace eigencrust {
+
+/// Sign of dot(cross(b-a, c-a), d-a): +1 when d sees the triangle abc counter-clockwise, 0 when coplanar.
+int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// Dimension of the smallest flat that holds all points: -1 (no point) to 3.
+int affine_dimension(std::span<const Vec3> points);
+
+} // namespace eigencrust

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/attributes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <eigencrust/error.h>
+#include <eigencrust/io.h>
+
+#include "io/scalar.h"
+#include "io/text.h"
+
+namespace eigencrust {
+namespace {
+
+using io::is_floating;
+using io::with_scalar;
+
+/// Nearest value of the type: integers are rounded and clamped, NaN becomes 0.
+template <class T>
+T convert(double value) {
+  if constexpr (std::is_integral_v<T>) {
+    if (std::isnan(value)) return 0;
+    constexpr auto lowest = static_cast<double>(std::numeric_limits<T>::lowest());
+    constexpr auto largest = static_cast<double>(std::numeric_limits<T>::max());
+    return static_cast<T>(std::clamp(std::nearbyint(value), lowest, largest));
+  } else {
+    return static_cast<T>(value);
+  }
+}
+
+template <class T>
+Attribute copy_of(std::string name, ScalarType type, std::span<const T> values) {
+  const auto bytes = std::as_bytes(values);
+  Attribute attribute;
+  attribute.name = std::move(name);
+  attribute.type = type;
+  attribute.values.assign(bytes.begin(), bytes.end());
+  return attribute;
+}
+
+/// The smallest type that holds all values of both.
+ScalarType common_type(ScalarType a, ScalarType b) {
+  if (a == b) return a;
+  if (is_floating(a) || is_floating(b)) {
+    // A float holds every integer of 16 bits, but not those of 32.
+    const auto narrow = [](ScalarType t) { return t == ScalarType::float32 || size_of(t) <= 2; };
+    return narrow(a) && narrow(b) ? ScalarType::float32 : ScalarType::float64;
+  }
+  const auto is_signed = [](ScalarType t) {
+    return t == ScalarType::int8 || t == ScalarType::int16 || t == ScalarType::int32;
+  };
+  if (is_signed(a) == is_signed(b)) return size_of(a) > size_of(b) ? a : b;
+  // Signed and unsigned: the signed type must have a bit more than the unsigned one.
+  const std::size_t unsigned_size = size_of(is_signed(a) ? b : a), signed_size = size_of(is_signed(a) ? a : b);
+  switch (std::max(2 * unsigned_size, signed_size)) {
+    case 2:
+      return ScalarType::int16;
+    case 4:
+      return ScalarType::int32;
+    default:
+      return ScalarType::float64;
+  }
+}
+
+void convert_to(Attribute& attribute, ScalarType type) {
+  if (attribute.type == type) return;
+  const std::size_t n = attribute.values.size() / size_of(attribute.type);
+  std::vector<std::byte> values(n * size_of(type));
+  with_scalar(type, [&]<class T>(std::type_identity<T>) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const T value = convert<T>(io::load_as_double(attribute.type, attribute.values.data(), i));
+      std::memcpy(values.data() + i * sizeof(T), &value, sizeof(T));
+    }
+  });
+  attribute.values = std::move(values);
+  attribute.type = type;
+}
+
+/// A scalar column as a list column whose rows all have one entry.
+void make_list(Attribute& attribute) {
+  if (attribute.is_list) return;
+  const std::size_t rows = attribute.rows();
+  attribute.offsets.resize(rows + 1);
+  for (std::size_t i = 0; i <= rows; ++i) attribute.offsets[i] = i;
+  attribute.is_list = true;
+  attribute.count_type = ScalarType::uint8;
+}
+
+/// `rows` more rows that say "not known": empty lists, NaN or 0.
+void append_missing(Attribute& attribute, std::size_t rows) {
+  if (attribute.is_list) {
+    if (attribute.offsets.empty()) attribute.offsets.push_back(0);
+    const std::uint64_t end = attribute.offsets.back();
+    attribute.offsets.resize(attribute.offsets.size() + rows, end);
+    return;
+  }
+  const std::size_t begin = attribute.values.size();
+  attribute.values.resize(begin + rows * size_of(attribute.type));
+  if (!is_floating(attribute.type)) return;
+  with_scalar(attribute.type, [&]<class T>(std::type_identity<T>) {
+    const T nan = std::numeric_limits<T>::quiet_NaN();
+    for (std::size_t i = 0; i < rows; ++i)
+      std::memcpy(attribute.values.data() + begin + i * sizeof(T), &nan, sizeof(T));
+  });
+}
+
+void append_rows(Attribute& attribute, Attribute next) {
+  const ScalarType type = common_type(attribute.type, next.type);
+  convert_to(attribute, type);
+  convert_to(next, type);
+  if (attribute.is_list || next.is_list) {
+    make_list(attribute);
+    make_list(next);
+    const ScalarType count = common_type(attribute.count_type, next.count_type);
+    attribute.count_type = is_floating(count) ? ScalarType::uint32 : count;
+    if (attribute.offsets.empty()) attribute.offsets.push_back(0);
+    const std::uint64_t end = attribute.offsets.back();
+    for (std::size_t i = 1; i < next.offsets.size(); ++i) attribute.offsets.push_back(end + next.offsets[i]);
+  }
+  attribute.values.insert(attribute.values.end(), next.values.begin(), next.values.end());
+}
+
+void append_attributes(PointCloud& cloud, PointCloud& next) {
+  const std::size_t rows = cloud.points.size();
+  for (Attribute& attribute : cloud.attributes) {
+    const auto same = std::find_if(next.attributes.begin(), next.attributes.end(),
+                                   [&](const Attribute& other) { return other.name == attribute.name; });
+    if (same == next.attributes.end()) {
+      append_missing(attribute, next.points.size());
+    } else {
+      append_rows(attribute, std::move(*same));
+      next.attributes.erase(same);
+    }
+  }
+  for (Attribute& attribute : next.attributes) {
+    Attribute first;
+    first.name = attribute.name;
+    first.type = attribute.type;
+    first.is_list = attribute.is_list;
+    first.count_type = attribute.count_type;
+    append_missing(first, rows);
+    append_rows(first, std::move(attribute));
+    cloud.attributes.push_back(std::move(first));
+  }
+}
+
+void append_scan_index(PointCloud& cloud, const PointCloud& next) {
+  const std::size_t rows = cloud.points.size();
+  if (cloud.scan_index.empty()) cloud.scan_index.assign(rows, 0);
+  const std::uint64_t first = 1 + std::uint64_t{*std::max_element(cloud.scan_index.begin(), cloud.scan_index.end())};
+  const std::uint64_t last =
+      next.scan_index.empty() ? 0 : *std::max_element(next.scan_index.begin(), next.scan_index.end());
+  if (first + last > std::numeric_limits<std::uint32_t>::max())
+    throw Error(ErrorKind::input, "scan index", "the scan numbers exceed 32 bits", "number the scans from 0");
+  const auto shift = static_cast<std::uint32_t>(first);
+  cloud.scan_index.reserve(rows + next.points.size());
+  if (next.scan_index.empty()) cloud.scan_index.resize(rows + next.points.size(), shift);
+  for (const std::uint32_t scan : next.scan_index) cloud.scan_index.push_back(scan + shift);
+}
+
+} // namespace
+
+double attribute_value(const Attribute& attribute, std::size_t row) {
+  return io::load_as_double(attribute.type, attribute.values.data(), row);
+}
+
+Attribute make_attribute(std::string name, ScalarType type, std::span<const double> values) {
+  Attribute attribute = copy_of(std::move(name), ScalarType::float64, values);
+  convert_to(attribute, type);
+  return attribute;
+}
+
+Attribute make_attribute(std::string name, std::span<const std::uint32_t> values) {
+  return copy_of(std::move(name), ScalarType::uint32, values);
+}
+
+Attribute make_attribute(std::string name, std::span<const float> values) {
+  return copy_of(std::move(name), ScalarType::float32, values);
+}
+
+Attribute gather(const Attribute& attribute, std::span<const std::uint32_t> rows) {
+  Attribute result;
+  result.name = attribute.name;
+  result.type = attribute.type;
+  result.is_list = attribute.is_list;
+  result.count_type = attribute.count_type;
+  const std::size_t size = size_of(attribute.type);
+  if (!attribute.is_list) {
+    result.values.resize(rows.size() * size);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      std::memcpy(result.values.data() + i * size, attribute.values.data() + rows[i] * size, size);
+    return result;
+  }
+  result.offsets.reserve(rows.size() + 1);
+  result.offsets.push_back(0);
+  for (const std::uint32_t row : rows) {
+    const auto begin = attribute.values.begin() + static_cast<std::ptrdiff_t>(attribute.offsets[row] * size);
+    const auto end = attribute.values.begin() + static_cast<std::ptrdiff_t>(attribute.offsets[row + 1] * size);
+    result.values.insert(result.values.end(), begin, end);
+    result.offsets.push_back(result.values.size() / size);
+  }
+  return result;
+}
+
+const Attribute* find_attribute(const std::vector<Attribute>& attributes, std::string_view name) {
+  for (const Attribute& attribute : attributes)
+    if (attribute.name == name) return &attribute;
+  return nullptr;
+}
+
+void append_scan(PointCloud& cloud, PointCloud next) {
+  if (next.points.empty()) return;
+  if (cloud.points.empty()) {
+    cloud = std::move(next);
+    return;
+  }
+  append_attributes(cloud, next);
+  append_scan_index(cloud, next);
+  cloud.points.insert(cloud.points.end(), next.points.begin(), next.points.end());
+}
+
+namespace io {
+
+std::string UniqueNames::operator()(const std::string& name) {
+  if (taken_.insert(name).second) return name;
+  std::uint64_t& suffix = last_suffix_.try_emplace(name, 1).first->second;
+  for (;;) {
+    std::string unique = name + "_" + std::to_string(++suffix);
+    if (taken_.insert(unique).second) return unique;
+  }
+}
+
+std::vector<Attribute> colour_attributes(std::span<const double> rgb, std::size_t channels, bool whole_numbers) {
+  static constexpr std::array<const char*, 4> names = {"red", "green", "blue", "alpha"};
+  constexpr double printed = 5e-4; // half a unit of the third digit
+  const auto is_byte = [](double v) { return v >= 0 && v <= 255 && v == std::floor(v); };
+  const auto is_fraction = [](double v) {
+    return v >= 0 && v <= 1 && std::abs(v - std::nearbyint(255 * v) / 255) <= printed;
+  };
+  const bool bytes = whole_numbers && std::all_of(rgb.begin(), rgb.end(), is_byte);
+  const bool fractions = !bytes && std::all_of(rgb.begin(), rgb.end(), is_fraction);
+  std::vector<Attribute> result;
+  std::vector<double> channel(rgb.size() / channels);
+  for (std::size_t c = 0; c < channels; ++c) {
+    for (std::size_t i = 0; i < channel.size(); ++i)
+      channel[i] = fractions ? std::nearbyint(255 * rgb[i * channels + c]) : rgb[i * channels + c];
+    result.push_back(make_attribute(names[c], bytes || fractions ? ScalarType::uint8 : ScalarType::float32, channel));
+  }
+  return result;
+}
+
+std::optional<ColourColumns> find_colours(const std::vector<Attribute>& attributes) {
+  const auto find = [&](const char* name) -> const Attribute* {
+    for (const Attribute& attribute : attributes)
+      if (!attribute.is_list && equal_ignoring_case(attribute.name, name)) return &attribute;
+    return nullptr;
+  };
+  ColourColumns colours{{find("red"), find("green"), find("blue")}, find("alpha")};
+  if (!colours.rgb[0] || !colours.rgb[1] || !colours.rgb[2])
+    colours = {{find("r"), find("g"), find("b")}, colours.alpha};
+  if (!colours.rgb[0] || !colours.rgb[1] || !colours.rgb[2]) return std::nullopt;
+  return colours;
+}
+
+double colour_fraction(const Attribute& channel, std::size_t row) {
+  const double value = attribute_value(channel, row);
+  return with_scalar(channel.type, [&]<class T>(std::type_identity<T>) {
+    if constexpr (std::is_integral_v<T>) return value / static_cast<double>(std::numeric_limits<T>::max());
+    return value;
+  });
+}
+
+void warn_lost_attributes(const std::vector<Attribute>& attributes, const std::string& of, std::size_t colours_kept,
+                          const std::string& format, std::vector<std::string>& warnings) {
+  const auto colours = colours_kept > 0 ? find_colours(attributes) : std::nullopt;
+  std::string names;
+  for (const Attribute& attribute : attributes) {
+    if (colours && std::find(colours->rgb.begin(), colours->rgb.end(), &attribute) != colours->rgb.end()) continue;
+    if (colours && colours_kept == 4 && &attribute == colours->alpha) continue;
+    names += (names.empty() ? "" : ", ") + attribute.name;
+  }
+  if (!names.empty()) warnings.push_back(format + " has no room for these attributes of the " + of + ": " + names);
+}
+
+void check_attributes(const std::vector<Attribute>& attributes, std::size_t rows, const std::string& of) {
+  for (const Attribute& attribute : attributes) {
+    const std::size_t size = size_of(attribute.type);
+    bool sound = attribute.values.size() % size == 0 && attribute.rows() == rows;
+    if (attribute.is_list && sound && rows > 0)
+      sound = attribute.offsets.front() == 0 && attribute.offsets.back() == attribute.values.size() / size &&
+              std::is_sorted(attribute.offsets.begin(), attribute.offsets.end());
+    if (!sound)
+      throw Error(ErrorKind::usage, "attribute " + attribute.name,
+                  "the attribute has " + plural(attribute.rows(), "row") + " for " + plural(rows, of),
+                  "give every attribute as many rows as there are");
+  }
+}
+
+} // namespace io
+} // namespace eigencrust

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The readers and writers of the single formats. Only registry.cpp calls them.
+#pragma once
+
+#include <ostream>
+#include <span>
+
+#include <eigencrust/io.h>
+
+#include "io/file_content.h"
+
+namespace eigencrust::io {
+
+// Readers. All throw Error{input} as io.h says.
+PointCloud read_ply_cloud(const FileContent& file);
+TriangleMesh read_ply_mesh(const FileContent& file);
+PointCloud read_xyz(const FileContent& file, const ReadOptions& options);
+/// The rows of an .xyz file under the name .pts; rows may begin with the letter p, after a header of
+/// rows that begin with d, s or g (Hoppe's point files).
+PointCloud read_lettered_xyz(const FileContent& file, const ReadOptions& options);
+PointCloud read_pts(const FileContent& file, const ReadOptions& options);
+TriangleMesh read_obj(const FileContent& file);
+TriangleMesh read_off(const FileContent& file);
+TriangleMesh read_stl(const FileContent& file);
+
+// Writers. They check and choose first (prepare), so that nothing is created in vain, and leave what
+// they chose in `result`.
+using Body = std::function<void(std::ostream&)>;
+Body prepare_ply(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result);
+Body prepare_ply(const PointCloud& cloud, const WriteOptions& options, WriteResult& result);
+Body prepare_obj(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result);
+Body prepare_off(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result);
+Body prepare_stl(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result);
+/// \param separator between the fields; ',' writes the header line without a mark
+Body prepare_xyz(const PointCloud& cloud, const WriteOptions& options, char separator, WriteResult& result);
+
+} // namespace eigencrust::io

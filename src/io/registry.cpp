@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The only place that knows which extension means which format.
+#include <algorithm>
+#include <array>
+#include <new>
+#include <stdexcept>
+
+#include <eigencrust/error.h>
+#include <eigencrust/io.h>
+
+#include "io/attributes.h"
+#include "io/formats.h"
+#include "io/text.h"
+
+namespace eigencrust {
+namespace {
+
+using io::Body;
+using io::FileContent;
+
+using CloudReader = PointCloud (*)(const FileContent&, const ReadOptions&);
+using MeshReader = TriangleMesh (*)(const FileContent&);
+using MeshWriter = Body (*)(const TriangleMesh&, const WriteOptions&, WriteResult&);
+using CloudWriter = Body (*)(const PointCloud&, const WriteOptions&, WriteResult&);
+
+struct Format {
+  std::string_view extension;
+  CloudReader read_cloud;
+  MeshReader read_mesh = nullptr;
+  MeshWriter write_mesh = nullptr;
+  CloudWriter write_cloud = nullptr;
+};
+
+PointCloud read_ply_points(const FileContent& file, const ReadOptions&) { return io::read_ply_cloud(file); }
+
+/// The vertices of a mesh.
+template <MeshReader read>
+PointCloud read_vertices(const FileContent& file, const ReadOptions&) {
+  TriangleMesh mesh = read(file);
+  PointCloud cloud;
+  cloud.points = std::move(mesh.vertices);
+  cloud.attributes = std::move(mesh.vertex_attributes);
+  return cloud;
+}
+
+template <char separator>
+Body write_rows(const PointCloud& cloud, const WriteOptions& options, WriteResult& result) {
+  return io::prepare_xyz(cloud, options, separator, result);
+}
+
+constexpr std::array<Format, 9> formats = {{
+    {"ply", read_ply_points, io::read_ply_mesh, io::prepare_ply, io::prepare_ply},
+    {"xyz", io::read_xyz, nullptr, nullptr, write_rows<' '>},
+    {"txt", io::read_xyz, nullptr, nullptr, write_rows<' '>},
+    {"asc", io::read_xyz, nullptr, nullptr, write_rows<' '>},
+    {"csv", io::read_xyz, nullptr, nullptr, write_rows<','>},
+    {"pts", io::read_pts},
+    {"obj", read_vertices<io::read_obj>, io::read_obj, io::prepare_obj},
+    {"off", read_vertices<io::read_off>, io::read_off, io::prepare_off},
+    {"stl", read_vertices<io::read_stl>, io::read_stl, io::prepare_stl},
+}};
+
+const Format* find_format(std::string_view extension) {
+  const auto found = std::find_if(formats.begin(), formats.end(),
+                                  [&](const Format& f) { return io::equal_ignoring_case(f.extension, extension); });
+  return found == formats.end() ? nullptr : &*found;
+}
+
+const Format* format_of(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  return extension.empty() ? nullptr : find_format(std::string_view(extension).substr(1));
+}
+
+/// Recognizes text formats by their first line that is no comment.
+const Format* sniff_text(const FileContent& file) {
+  io::LineScanner lines(file);
+  io::Fields fields;
+  while (lines.next_filled()) {
+    const std::string_view line = lines.line();
+    if (line.starts_with('#') || line.starts_with("//")) continue;
+    io::split_fields(line, fields);
+    std::uint64_t count = 0;
+    if (fields.size() == 1 && io::is_digit(line[0]) && io::parse(fields[0], count)) return find_format("pts");
+    double number = 0;
+    if (fields.size() >= 3 && io::parse(fields[0], number) && io::parse(fields[1], number)) return find_format("xyz");
+    std::string axes; // a header line with the names of the columns
+    for (const std::string_view field : fields)
+      if (field.size() == 1) axes += io::lower_case(field);
+    if (axes.starts_with("xyz")) return find_format("xyz");
+    for (const std::string_view keyword : {"v", "vn", "vt", "o", "g", "mtllib", "usemtl"})
+      if (fields[0] == keyword) return find_format("obj");
+    return nullptr;
+  }
+  return nullptr;
+}
+
+const Format* sniff(const FileContent& file) {
+  const std::string_view bytes = file.bytes();
+  std::string_view first = bytes.substr(0, std::min(bytes.find_first_of("\r\n"), bytes.size()));
+  const std::string_view word = io::next_word(first);
+  if (word == "ply") return find_format("ply");
+  for (const std::string_view keyword : {"OFF", "COFF", "NOFF", "CNOFF", "STOFF", "STCOFF", "STNOFF", "STCNOFF"})
+    if (word == keyword) return find_format("off");
+  if (io::equal_ignoring_case(word, "solid")) return find_format("stl");
+  if (bytes.size() >= 84) {
+    const auto byte = [&](std::size_t i) { return static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[i])); };
+    const std::uint64_t facets = byte(80) | byte(81) << 8 | byte(82) << 16 | byte(83) << 24;
+    if (bytes.size() == 84 + 50 * facets) return find_format("stl");
+  }
+  if (bytes.substr(0, 4096).find('\0') != std::string_view::npos) return nullptr;
+  return sniff_text(file);
+}
+
+/// \param mesh_wanted only formats that hold triangles will do
+const Format& format_for_reading(const std::filesystem::path& path, const FileContent& file, bool mesh_wanted) {
+  const Format* format = format_of(path);
+  if (format == nullptr) format = sniff(file);
+  if (format == nullptr)
+    file.fail("the format is not known", "convert the file to ply, xyz, txt, asc, csv, pts, obj, off or stl");
+  if (mesh_wanted && format->read_mesh == nullptr)
+    file.fail("the file holds points, not a mesh", "use a ply, obj, off or stl file");
+  return *format;
+}
+
+[[noreturn]] void fail_memory(const std::filesystem::path& path) {
+  throw Error(ErrorKind::memory, path.string(), "not enough memory for the file",
+              "free memory or split the file into parts");
+}
+
+[[noreturn]] void fail_extension(const std::filesystem::path& path, bool mesh) {
+  throw Error(ErrorKind::input, path.string(), "there is no writer for this file name's extension",
+              mesh ? "use .ply, .obj, .off or .stl" : "use .ply, .xyz, .txt, .asc or .csv");
+}
+
+void check_mesh(const TriangleMesh& mesh) {
+  io::check_attributes(mesh.vertex_attributes, mesh.vertices.size(), "vertex row");
+  io::check_attributes(mesh.triangle_attributes, mesh.triangles.size(), "triangle");
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t vertex : triangle)
+      if (vertex >= mesh.vertices.size())
+        throw Error(ErrorKind::usage, "mesh",
+                    "a triangle names vertex " + std::to_string(vertex) + " of " + std::to_string(mesh.vertices.size()),
+                    "number the vertices from 0");
+}
+
+} // namespace
+
+PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options) {
+  try {
+    const FileContent file(path);
+    return format_for_reading(path, file, false).read_cloud(file, options);
+  } catch (const std::bad_alloc&) {
+    fail_memory(path);
+  } catch (const std::length_error&) {
+    fail_memory(path);
+  }
+}
+
+TriangleMesh read_mesh(const std::filesystem::path& path) {
+  try {
+    const FileContent file(path);
+    return format_for_reading(path, file, true).read_mesh(file);
+  } catch (const std::bad_alloc&) {
+    fail_memory(path);
+  } catch (const std::length_error&) {
+    fail_memory(path);
+  }
+}
+
+WriteResult write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options) {
+  const Format* format = format_of(path);
+  if (format == nullptr || format->write_mesh == nullptr) fail_extension(path, true);
+  check_mesh(mesh);
+  WriteResult result;
+  const Body body = format->write_mesh(mesh, options, result);
+  write_file_atomically(path, body);
+  return result;
+}
+
+WriteResult write_point_cloud(const std::filesystem::path& path, const PointCloud& cloud, const WriteOptions& options) {
+  const Format* format = format_of(path);
+  if (format == nullptr || format->write_cloud == nullptr) fail_extension(path, false);
+  io::check_attributes(cloud.attributes, cloud.points.size(), "point");
+  WriteResult result;
+  const Body body = format->write_cloud(cloud, options, result);
+  if (!cloud.scan_index.empty()) result.warnings.emplace_back("the scan numbers of the points are not written");
+  write_file_atomically(path, body);
+  return result;
+}
+
+bool can_write_mesh(const std::filesystem::path& path) {
+  const Format* format = format_of(path);
+  return format != nullptr && format->write_mesh != nullptr;
+}
+
+bool can_write_point_cloud(const std::filesystem::path& path) {
+  const Format* format = format_of(path);
+  return format != nullptr && format->write_cloud != nullptr;
+}
+
+} // namespace eigencrust

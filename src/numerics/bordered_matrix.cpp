@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "numerics/bordered_matrix.h"
+
+namespace eigencrust {
+namespace {
+
+/// Row i of A and B times x, with the diagonal.
+double row_product(const BorderedMatrix& m, const Vector& x, std::size_t i) {
+  double sum = m.diagonal[i] * x[i];
+  for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1]; ++e)
+    sum += static_cast<double>(m.value[e]) * x[m.column[e]];
+  for (std::uint32_t k = 0; k < m.border_size(); ++k)
+    sum += static_cast<double>(m.border[k][i]) * x[m.interior_size() + k];
+  return sum;
+}
+
+double border_row_product(const BorderedMatrix& m, const Vector& x, std::uint32_t k, const Threads& threads) {
+  const std::size_t n = m.interior_size();
+  double sum = sum_blocks<double>(threads, n, [&](std::size_t begin, std::size_t end) {
+    double part = 0;
+    for (std::size_t i = begin; i < end; ++i) part += static_cast<double>(m.border[k][i]) * x[i];
+    return part;
+  });
+  for (std::uint32_t j = 0; j < m.border_size(); ++j) sum += m.corner[k][j] * x[n + j];
+  return sum;
+}
+
+} // namespace
+
+void multiply(const BorderedMatrix& matrix, const Vector& x, Vector& y, const Threads& threads) {
+  y.resize(matrix.size());
+  for_each_index(threads, matrix.interior_size(), [&](std::size_t i) { y[i] = row_product(matrix, x, i); });
+  for (std::uint32_t k = 0; k < matrix.border_size(); ++k)
+    y[matrix.interior_size() + k] = border_row_product(matrix, x, k, threads);
+}
+
+void residual(const BorderedMatrix& matrix, const Vector& b, const Vector& x, Vector& r, const Threads& threads) {
+  r.resize(matrix.size());
+  for_each_index(threads, matrix.interior_size(), [&](std::size_t i) { r[i] = b[i] - row_product(matrix, x, i); });
+  for (std::uint32_t k = 0; k < matrix.border_size(); ++k) {
+    const std::size_t z = matrix.interior_size() + k;
+    r[z] = b[z] - border_row_product(matrix, x, k, threads);
+  }
+}
+
+double inner_product(const Vector& a, const Vector& b, const Threads& threads) {
+  return sum_blocks<double>(threads, a.size(), [&](std::size_t begin, std::size_t end) {
+    double part = 0;
+    for (std::size_t i = begin; i < end; ++i) part += a[i] * b[i];
+    return part;
+  });
+}
+
+double weighted_product(const Vector& a, const Vector& d, const Vector& b, const Threads& threads) {
+  return sum_blocks<double>(threads, a.size(), [&](std::size_t begin, std::size_t end) {
+    double part = 0;
+    for (std::size_t i = begin; i < end; ++i) part += a[i] * d[i] * b[i];
+    return part;
+  });
+}
+
+void add_scaled(double k, const Vector& x, Vector& y, const Threads& threads) {
+  for_each_index(threads, x.size(), [&](std::size_t i) { y[i] += k * x[i]; });
+}
+
+Vector full_diagonal(const BorderedMatrix& matrix) {
+  Vector d = matrix.diagonal;
+  for (std::uint32_t k = 0; k < matrix.border_size(); ++k) d.push_back(matrix.corner[k][k]);
+  return d;
+}
+
+} // namespace eigencrust

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <eigencrust/options.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include <eigencrust/error.h>
+
+namespace eigencrust {
+namespace {
+
+template <class Value, std::size_t n>
+using Names = std::array<std::pair<Value, const char*>, n>;
+
+constexpr Names<Preset, 2> presets{{{Preset::robust, "robust"}, {Preset::paper, "paper"}}};
+constexpr Names<Eigensolver, 2> eigensolvers{
+    {{Eigensolver::multigrid, "multigrid"}, {Eigensolver::lanczos, "lanczos"}}};
+constexpr Names<SecondStage, 2> second_stages{
+    {{SecondStage::harmonic, "harmonic"}, {SecondStage::eigenvector, "eigenvector"}}};
+constexpr Names<Questionable, 3> questionables{
+    {{Questionable::before, "before"}, {Questionable::after, "after"}, {Questionable::never, "never"}}};
+constexpr Names<GlobalSign, 2> global_signs{{{GlobalSign::vote, "vote"}, {GlobalSign::supernode, "supernode"}}};
+constexpr Names<Smoothing, 2> smoothings{{{Smoothing::laplacian, "laplacian"}, {Smoothing::taubin, "taubin"}}};
+constexpr Names<Axis, 6> axes{{{Axis::plus_x, "+x"},
+                               {Axis::minus_x, "-x"},
+                               {Axis::plus_y, "+y"},
+                               {Axis::minus_y, "-y"},
+                               {Axis::plus_z, "+z"},
+                               {Axis::minus_z, "-z"}}};
+
+template <class Value, std::size_t n>
+std::string name_of(const Names<Value, n>& names, Value value) {
+  for (const auto& [v, name] : names)
+    if (v == value) return name;
+  return "?";
+}
+
+[[noreturn]] void reject(const std::string& what, const std::string& text, const std::string& accepted) {
+  throw Error(ErrorKind::usage, "options", "'" + text + "' is no " + what, "use " + accepted);
+}
+
+template <class Value, std::size_t n>
+Value parse(const Names<Value, n>& names, const std::string& what, const std::string& text) {
+  std::string accepted;
+  for (const auto& [v, name] : names) {
+    if (text == name) return v;
+    accepted += (accepted.empty() ? "" : ", ") + std::string(name);
+  }
+  reject(what, text, "one of " + accepted);
+}
+
+/// The whole text as a finite number.
+std::optional<double> number(std::string_view text) {
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::string shortest(double value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {buffer.data(), end};
+}
+
+} // namespace
+
+Options Options::of(Preset preset) {
+  Options options;
+  options.preset = preset;
+  if (preset == Preset::paper) {
+    options.solver.stop_on_stable_signs = false;
+    options.solver.tolerance = 1e-6;
+    options.solver.max_steps = 300;
+    options.second_stage = SecondStage::eigenvector;
+    options.questionable = Questionable::after;
+    options.global_sign = GlobalSign::supernode;
+    options.components.kind = KeepComponents::Kind::all;
+  }
+  return options;
+}
+
+std::string to_string(Preset value) { return name_of(presets, value); }
+std::string to_string(Eigensolver value) { return name_of(eigensolvers, value); }
+std::string to_string(SecondStage value) { return name_of(second_stages, value); }
+std::string to_string(Questionable value) { return name_of(questionables, value); }
+std::string to_string(GlobalSign value) { return name_of(global_signs, value); }
+std::string to_string(Smoothing value) { return name_of(smoothings, value); }
+std::string to_string(Axis value) { return name_of(axes, value); }
+
+std::string to_string(const GridSpacing& value) {
+  switch (value.kind) {
+    case GridSpacing::Kind::automatic:
+      return "auto";
+    case GridSpacing::Kind::off:
+      return "off";
+    case GridSpacing::Kind::length:
+      return shortest(value.value);
+    case GridSpacing::Kind::percent:
+      return shortest(value.value) + "%";
+  }
+  return "?";
+}
+
+std::string to_string(const KeepComponents& value) {
+  switch (value.kind) {
+    case KeepComponents::Kind::supported:
+      return "supported";
+    case KeepComponents::Kind::all:
+      return "all";
+    case KeepComponents::Kind::largest:
+      return "largest";
+    case KeepComponents::Kind::count:
+      return std::to_string(value.count);
+  }
+  return "?";
+}
+
+Preset parse_preset(const std::string& text) { return parse(presets, "preset", text); }
+Eigensolver parse_eigensolver(const std::string& text) { return parse(eigensolvers, "eigensolver", text); }
+SecondStage parse_second_stage(const std::string& text) { return parse(second_stages, "second stage", text); }
+Questionable parse_questionable(const std::string& text) {
+  return parse(questionables, "time for questionable poles", text);
+}
+Smoothing parse_smoothing(const std::string& text) { return parse(smoothings, "smoothing method", text); }
+Axis parse_axis(const std::string& text) { return parse(axes, "axis", text); }
+
+GridSpacing parse_grid_spacing(const std::string& text) {
+  if (text == "auto") return {GridSpacing::Kind::automatic, 0};
+  if (text == "off") return {GridSpacing::Kind::off, 0};
+  const bool percent = !text.empty() && text.back() == '%';
+  const auto value = number(percent ? std::string_view(text).substr(0, text.size() - 1) : std::string_view(text));
+  if (!value || *value <= 0) reject("grid spacing", text, "auto, off, a positive length or N%");
+  return {percent ? GridSpacing::Kind::percent : GridSpacing::Kind::length, *value};
+}
+
+KeepComponents parse_components(const std::string& text) {
+  if (text == "supported") return {KeepComponents::Kind::supported, 1};
+  if (text == "all") return {KeepComponents::Kind::all, 1};
+  if (text == "largest") return {KeepComponents::Kind::largest, 1};
+  std::uint32_t count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error != std::errc{} || end != text.data() + text.size() || count == 0)
+    reject("choice of components", text, "supported, all, largest or a positive number");
+  return {KeepComponents::Kind::count, count};
+}
+
+Vec3 parse_point(const std::string& text) {
+  std::array<double, 3> value{};
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t end = i < 2 ? text.find(',', begin) : text.size();
+    const auto v = end == std::string::npos ? std::nullopt : number(std::string_view(text).substr(begin, end - begin));
+    if (!v) reject("point", text, "three numbers x,y,z");
+    value[i] = *v;
+    begin = end + 1;
+  }
+  return {value[0], value[1], value[2]};
+}
+
+void check_options(const Options& options) {
+  const auto require = [](bool fine, const char* cause, const char* remedy) {
+    if (!fine) throw Error(ErrorKind::usage, "options", cause, remedy);
+  };
+  const bool has_length =
+      options.grid_spacing.kind == GridSpacing::Kind::length || options.grid_spacing.kind == GridSpacing::Kind::percent;
+  require(!has_length || (options.grid_spacing.value > 0 && std::isfinite(options.grid_spacing.value)),
+          "the grid spacing is not positive", "give a positive length or percentage");
+  require(options.components.kind != KeepComponents::Kind::count || options.components.count > 0,
+          "no component is to be kept", "keep at least one");
+  require(options.solver.tolerance > 0 && options.solver.tolerance < 1, "the solver's tolerance is not in (0, 1)",
+          "use 1e-6");
+  require(options.solver.stable_share > 0 && options.solver.stable_share <= 1, "the stable share is not in (0, 1]",
+          "use 1e-5");
+  require(options.solver.max_steps >= 1, "the solver may take no step", "allow at least one");
+  require(options.smooth <= 1000, "more than 1000 smoothing steps", "use fewer");
+  require(options.threads <= 1024, "more than 1024 threads", "use fewer");
+  for (const auto* points : {&options.outside_points, &options.inside_points})
+    for (const Vec3& p : *points)
+      require(is_finite(p), "a point named inside or outside is not finite", "give finite numbers");
+}
+
+} // namespace eigencrust

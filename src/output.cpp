@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "output.h"
+
+#include <numeric>
+
+#include <eigencrust/io.h>
+
+namespace eigencrust {
+
+void check_cloud(const PointCloud& cloud) {
+  const std::size_t n = cloud.points.size();
+  for (const Attribute& attribute : cloud.attributes)
+    if (attribute.rows() != n)
+      throw Error(ErrorKind::input, "input",
+                  "attribute " + attribute.name + " has " + std::to_string(attribute.rows()) + " rows for " +
+                      std::to_string(n) + " points",
+                  "give one value per point");
+  if (!cloud.scan_index.empty() && cloud.scan_index.size() != n)
+    throw Error(ErrorKind::input, "input",
+                "the scan index has " + std::to_string(cloud.scan_index.size()) + " entries for " + std::to_string(n) +
+                    " points",
+                "give one scan number per point");
+}
+
+void describe_input(const PointCloud& cloud, const Samples& samples, Report& report) {
+  report.points = cloud.points.size();
+  report.duplicates = samples.duplicates;
+  report.nonfinite = samples.nonfinite;
+  report.bounds = samples.bounds;
+}
+
+void describe_partition(const std::string& name, const SignedGraph& graph, const Partition& partition, Run& run,
+                        Report& report) {
+  PartitionReport entry;
+  entry.stage = name;
+  entry.nodes = graph.node_count();
+  entry.edges = graph.column.size() / 2;
+  for (const SignedGraph::Supernode& super : graph.supernodes)
+    for (const float w : super.weight) entry.edges += w != 0;
+  entry.eigenvalue = partition.eigenvalue;
+  entry.residual = partition.residual;
+  entry.iterations = partition.iterations;
+  entry.sign_changes = partition.sign_changes;
+  entry.components = partition.components;
+  entry.free_components = partition.free_components;
+  entry.status = partition.status;
+  report.partitions.push_back(entry);
+  report.undecided_nodes += partition.undecided;
+  if (partition.status == SolverStatus::not_converged)
+    run.warn("the solver of the " + name + " stopped before the signs settled (residual " +
+             std::to_string(partition.residual) + ")");
+}
+
+void describe_pole_labels(const PoleLabels& labels, Run& run) {
+  run.count("vote", labels.vote);
+  run.count("supernode_overruled", labels.reversed ? 1 : 0);
+  run.count("left_to_stage_two", static_cast<double>(labels.left_to_stage_two));
+}
+
+void require_surface(const Surface& surface) {
+  if (surface.mesh.triangles.empty())
+    throw Error(
+        ErrorKind::no_surface, "surface", "every tetrahedron was labelled outside",
+        "check that the points surround a volume, try --preset paper or --grid-spacing off, or name an inside point");
+}
+
+std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Options& options) {
+  std::vector<std::string> broken;
+  if (!mesh.closed() && !options.facade) broken.emplace_back("closed");
+  if (options.manifold && !mesh.manifold()) broken.emplace_back("manifold");
+  if (options.manifold && !mesh.oriented()) broken.emplace_back("consistently oriented");
+  return broken;
+}
+
+TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, const PointCloud& cloud, bool moved) {
+  TriangleMesh mesh;
+  mesh.triangles = surface.mesh.triangles;
+  std::vector<std::uint32_t> source;
+  source.reserve(surface.sample_of.size());
+  for (const SampleIndex s : surface.sample_of) source.push_back(t.source[s]);
+  mesh.vertices.reserve(source.size());
+  for (std::size_t v = 0; v < source.size(); ++v)
+    mesh.vertices.push_back(moved ? surface.mesh.vertices[v] + t.origin : cloud.points[source[v]]);
+  for (const Attribute& attribute : cloud.attributes) mesh.vertex_attributes.push_back(gather(attribute, source));
+  mesh.vertex_attributes.push_back(make_attribute("source_index", source));
+  return mesh;
+}
+
+} // namespace eigencrust

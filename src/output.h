@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What stands around the paper's page: checks of input and result, the report's entries, attributes.
+#pragma once
+
+#include <eigencrust/eigencrust.h>
+#include <eigencrust/stages.h>
+
+#include "run.h"
+
+namespace eigencrust {
+
+/// \throws Error{input} when an array of the cloud has the wrong length
+void check_cloud(const PointCloud& cloud);
+void describe_input(const PointCloud& cloud, const Samples& samples, Report& report);
+void describe_partition(const std::string& name, const SignedGraph& graph, const Partition& partition, Run& run,
+                        Report& report);
+void describe_pole_labels(const PoleLabels& labels, Run& run);
+
+/// \throws Error{no_surface}
+void require_surface(const Surface& surface);
+/// What the options promise and the mesh is not.
+std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Options& options);
+
+/// The surface in input coordinates with the attributes of its points and source_index. Unless the
+/// vertices were moved they are the input's rows bit for bit.
+TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& tetrahedralization, const PointCloud& cloud,
+                         bool moved);
+
+} // namespace eigencrust

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The paper on one page. § numbers: Kolluri, Shewchuk, O'Brien, Spectral Surface Reconstruction from
+// Noisy Point Clouds (SGP 2004).
+#include <eigencrust/eigencrust.h>
+#include <eigencrust/stages.h>
+
+#include "output.h"
+#include "parallel/threads.h"
+#include "run.h"
+
+namespace eigencrust {
+
+Result reconstruct(const PointCloud& cloud, const Options& options, Observer& observer) {
+  check_options(options);
+  check_cloud(cloud);
+  const auto start = std::chrono::steady_clock::now();
+  Result result;
+  Report& report = result.report;
+  report.options = options;
+  const Threads threads(options.threads);
+  Run run(report, observer);
+
+  Samples samples = run.stage("samples", [&] {
+    Samples found = prepare_samples(cloud.points, threads);
+    report.spacing = median_spacing(found, cloud.points, {}, threads);
+    report.grid_spacing = resolve_grid_spacing(options.grid_spacing, found, cloud.points, cloud.scan_index, threads);
+    return found;
+  });
+  describe_input(cloud, samples, report);
+
+  // §3: S+ = samples and cube corners, T = Delaunay(S+), poles
+  const Tetrahedralization t = run.stage("delaunay", [&] { return tetrahedralize(std::move(samples), threads); });
+  run.count("tetrahedra", t.tetrahedra.size());
+  const VertexStars stars = run.stage("stars", [&] { return vertex_stars(t, threads); });
+  const Poles poles = run.stage("poles", [&] { return find_poles(t, stars, threads); });
+  run.count("poles", poles.tetrahedron.size());
+
+  // §3.1: what is known beforehand, and the pole graph G
+  const Labels known = run.stage("evidence", [&] {
+    return known_labels(t, options.outside_points, options.inside_points, options.facade, threads);
+  });
+  const bool use_questionable = options.questionable != Questionable::never;
+  const auto questionable = run.stage("questionable", [&] { // §3.3
+    return questionable_tetrahedra(t, use_questionable ? report.grid_spacing : 0.0, threads);
+  });
+  const bool leave_out = options.questionable == Questionable::before;
+  const PoleGraph g = run.stage("pole_graph", [&] {
+    return pole_graph(t, stars, poles, known, leave_out ? questionable : std::vector<std::uint8_t>{}, threads);
+  });
+
+  // §3.2: the eigenvector of the smallest eigenvalue of L x = λ D x labels the poles
+  std::vector<std::uint32_t> component;
+  const Partition first = run.stage(
+      "partition_poles", [&] { return partition_poles(g, options.solver, threads, &component, run.checkpoint()); });
+  describe_partition("poles", g.graph, first, run, report);
+  PoleLabels pole_labels = run.stage(
+      "label_poles", [&] { return label_poles(t, poles, g, first, component, known, options.global_sign, threads); });
+  describe_pole_labels(pole_labels, run);
+  if (options.questionable == Questionable::after) // §3.3
+    run.count("labels_removed", static_cast<double>(unlabel_questionable(questionable, known, pole_labels.labels)));
+
+  // §3.4: the second graph H labels the rest
+  const TetrahedronGraph h =
+      run.stage("tetrahedron_graph", [&] { return tetrahedron_graph(t, pole_labels.labels, threads); });
+  const Partition second = run.stage("partition_tetrahedra", [&] {
+    return partition_tetrahedra(h, options.second_stage, options.solver, threads, run.checkpoint());
+  });
+  describe_partition("tetrahedra", h.graph, second, run, report);
+  FinalLabels labels =
+      run.stage("label_tetrahedra", [&] { return label_tetrahedra(h, second, std::move(pole_labels.labels)); });
+  if (labels.supernodes_agree)
+    run.warn("the second eigenvector puts inside and outside on the same side; use --second-stage harmonic");
+
+  // §3.5, §3: manifold, surface
+  if (options.manifold) {
+    const auto counts = run.stage("manifold", [&] { return make_manifold(t, stars, poles, labels, run.checkpoint()); });
+    run.count("edges_repaired", static_cast<double>(counts.edges));
+    run.count("vertices_repaired", static_cast<double>(counts.vertices));
+    run.count("tetrahedra_relabelled", static_cast<double>(counts.relabelled));
+  }
+  Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels); });
+  report.dropped_components =
+      run.stage("components", [&] { return filter_components(surface, options.components, t, stars); });
+  require_surface(surface);
+  if (options.smooth > 0) // §3.6
+    run.stage("smoothing", [&] { smooth(surface.mesh, options.smoothing, options.smooth, threads); });
+
+  result.mesh = run.stage("attributes", [&] { return finish_mesh(surface, t, cloud, options.smooth > 0); });
+  report.mesh = run.stage("validate", [&] { return validate(result.mesh, {.threads = options.threads}); });
+  report.broken_guarantees = broken_guarantees(report.mesh, options);
+  result.tetrahedralization = t;
+  result.labels = std::move(labels.labels);
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.peak_memory_bytes = peak_memory_bytes();
+  return result;
+}
+
+} // namespace eigencrust

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <png.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include <eigencrust/error.h>
+#include <eigencrust/io.h>
+#include <eigencrust/render.h>
+
+namespace eigencrust {
+namespace {
+
+bool consistent(const Image& image) {
+  return image.width > 0 && image.height > 0 && image.rgb.size() == std::size_t{3} * image.width * image.height;
+}
+
+/// The PNG's bytes. The simplified interface of libpng reports errors by return value: no longjmp.
+std::vector<char> encode_png(const std::filesystem::path& path, const Image& image) {
+  png_image png;
+  std::memset(&png, 0, sizeof png);
+  png.version = PNG_IMAGE_VERSION;
+  png.width = image.width;
+  png.height = image.height;
+  png.format = PNG_FORMAT_RGB;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+  std::vector<char> bytes(size);
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr) == 0)
+    throw Error(ErrorKind::input, path.string(), std::string("the picture could not be encoded: ") + png.message,
+                "choose a smaller picture");
+  bytes.resize(size);
+  return bytes;
+}
+
+} // namespace
+
+Image beside(const std::vector<Image>& images) {
+  Image result;
+  std::uint64_t width = 0;
+  for (const Image& image : images) {
+    if (!consistent(image) || image.height != images[0].height)
+      throw Error(ErrorKind::usage, "beside", "the pictures are not of one height", "render them with equal heights");
+    width += image.width;
+  }
+  if (width > std::numeric_limits<std::int32_t>::max())
+    throw Error(ErrorKind::usage, "beside", "the pictures are too wide together", "take fewer or smaller ones");
+  if (images.empty()) return result;
+  result.width = static_cast<std::uint32_t>(width);
+  result.height = images[0].height;
+  result.rgb.reserve(std::size_t{3} * result.width * result.height);
+  for (std::size_t row = 0; row < result.height; ++row)
+    for (const Image& image : images) {
+      const auto begin = image.rgb.begin() + static_cast<std::ptrdiff_t>(row * 3 * image.width);
+      result.rgb.insert(result.rgb.end(), begin, begin + static_cast<std::ptrdiff_t>(3 * image.width));
+    }
+  return result;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image) {
+  if (!consistent(image))
+    throw Error(ErrorKind::input, path.string(), "the picture is empty or its rows do not fit its size",
+                "render it first");
+  const std::vector<char> bytes = encode_png(path, image);
+  write_file_atomically(
+      path, [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });
+}
+
+} // namespace eigencrust

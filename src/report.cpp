@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <eigencrust/report.h>
+
+#include <sys/resource.h>
+#include <nlohmann/json.hpp>
+
+#include <eigencrust/version.h>
+
+namespace eigencrust {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+Json json_of(const MeshSummary& m) {
+  constexpr std::size_t listed = 100;
+  Json list = Json::array();
+  for (std::size_t i = 0; i < std::min(listed, m.component_list.size()); ++i) {
+    const ComponentSummary& c = m.component_list[i];
+    list.push_back({{"vertices", c.vertices}, {"triangles", c.triangles}, {"euler", c.euler}, {"genus", c.genus}});
+  }
+  Json json{{"vertices", m.vertices},
+            {"triangles", m.triangles},
+            {"unreferenced_vertices", m.unreferenced_vertices},
+            {"boundary_edges", m.boundary_edges},
+            {"boundary_loops", m.boundary_loops},
+            {"nonmanifold_edges", m.nonmanifold_edges},
+            {"nonmanifold_vertices", m.nonmanifold_vertices},
+            {"inconsistent_edges", m.inconsistent_edges},
+            {"degenerate_triangles", m.degenerate_triangles},
+            {"self_intersections", m.self_intersections < 0 ? Json() : Json(m.self_intersections)},
+            {"components", m.components},
+            {"genus", m.genus},
+            {"euler", m.euler},
+            {"volume", m.volume},
+            {"area", m.area}};
+  if (!m.bounds.empty()) json["bounds"] = {{"min", json_of(m.bounds.min)}, {"max", json_of(m.bounds.max)}};
+  json["component_list"] = std::move(list);
+  return json;
+}
+
+Json json_of(const Options& o) {
+  Json points_out = Json::array(), points_in = Json::array();
+  for (const Vec3& p : o.outside_points) points_out.push_back(json_of(p));
+  for (const Vec3& p : o.inside_points) points_in.push_back(json_of(p));
+  return {{"preset", to_string(o.preset)},
+          {"eigensolver", to_string(o.solver.eigensolver)},
+          {"stop_on_stable_signs", o.solver.stop_on_stable_signs},
+          {"stable_share", o.solver.stable_share},
+          {"tolerance", o.solver.tolerance},
+          {"max_steps", o.solver.max_steps},
+          {"second_stage", to_string(o.second_stage)},
+          {"grid_spacing", to_string(o.grid_spacing)},
+          {"questionable", to_string(o.questionable)},
+          {"global_sign", to_string(o.global_sign)},
+          {"manifold", o.manifold},
+          {"components", to_string(o.components)},
+          {"smooth", o.smooth},
+          {"smoothing", to_string(o.smoothing)},
+          {"outside_points", std::move(points_out)},
+          {"inside_points", std::move(points_in)},
+          {"facade", o.facade ? Json(to_string(*o.facade)) : Json()},
+          {"threads", o.threads}};
+}
+
+Json json_of(const StageReport& s) {
+  Json json{{"name", s.name}, {"seconds", s.seconds}, {"peak_memory_bytes", s.peak_memory_bytes}};
+  for (const auto& [name, value] : s.counts) {
+    const bool whole = value == static_cast<double>(static_cast<std::int64_t>(value));
+    json[name] = whole ? Json(static_cast<std::int64_t>(value)) : Json(value);
+  }
+  return json;
+}
+
+Json json_of(const PartitionReport& p) {
+  return {{"stage", p.stage},
+          {"nodes", p.nodes},
+          {"edges", p.edges},
+          {"eigenvalue", p.eigenvalue},
+          {"residual", p.residual},
+          {"iterations", p.iterations},
+          {"sign_changes", p.sign_changes},
+          {"components", p.components},
+          {"free_components", p.free_components},
+          {"status", to_string(p.status)}};
+}
+
+Json json_of_input(const Report& report) {
+  Json files = Json::array();
+  for (const InputFile& f : report.files)
+    files.push_back({{"path", f.path}, {"sha256", f.sha256}, {"points", f.points}, {"sensor", nullptr}});
+  Json json{{"files", std::move(files)},
+            {"points", report.points},
+            {"duplicates", report.duplicates},
+            {"nonfinite", report.nonfinite},
+            {"spacing", report.spacing}};
+  json["bounds"] = {{"min", json_of(report.bounds.min)}, {"max", json_of(report.bounds.max)}};
+  return json;
+}
+
+} // namespace
+
+std::string to_json(const MeshSummary& mesh) { return json_of(mesh).dump(2); }
+
+std::string to_json(const Report& report) {
+  Json stages = Json::array(), partitions = Json::array(), dropped = Json::array();
+  for (const StageReport& s : report.stages) stages.push_back(json_of(s));
+  for (const PartitionReport& p : report.partitions) partitions.push_back(json_of(p));
+  for (const DroppedComponent& d : report.dropped_components)
+    dropped.push_back({{"vertices", d.vertices},
+                       {"triangles", d.triangles},
+                       {"median_edge_in_spacings", d.median_edge},
+                       {"centre", json_of(d.centre)}});
+  const Json json{{"schema", 1},
+                  {"version", version()},
+                  {"command", report.command},
+                  {"input", json_of_input(report)},
+                  {"options", json_of(report.options)},
+                  {"stages", std::move(stages)},
+                  {"partitions", std::move(partitions)},
+                  {"mesh", json_of(report.mesh)},
+                  {"grid_spacing", report.grid_spacing},
+                  {"dropped_components", std::move(dropped)},
+                  {"undecided_nodes", report.undecided_nodes},
+                  {"seconds", report.seconds},
+                  {"peak_memory_bytes", report.peak_memory_bytes},
+                  {"warnings", report.warnings},
+                  {"broken_guarantees", report.broken_guarantees}};
+  // Paths may hold bytes that are no UTF-8; a report must still come out.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+const char* to_string(SolverStatus status) {
+  switch (status) {
+    case SolverStatus::converged:
+      return "converged";
+    case SolverStatus::signs_stable:
+      return "signs_stable";
+    case SolverStatus::consistent:
+      return "consistent";
+    case SolverStatus::not_converged:
+      return "not_converged";
+    case SolverStatus::trivial:
+      return "trivial";
+  }
+  return "?";
+}
+
+} // namespace eigencrust

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Bookkeeping around the stages: time, memory, observer. No stage knows of it.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include <eigencrust/observer.h>
+#include <eigencrust/report.h>
+#include <eigencrust/stages.h>
+
+namespace eigencrust {
+
+/// Runs stages one after another and writes them down.
+class Run {
+ public:
+  Run(Report& report, Observer& observer) : report_(report), observer_(observer) {}
+
+  /// Runs one stage; counts are added by the caller through count().
+  template <class Stage>
+  auto stage(const std::string& name, Stage&& work) {
+    throw_if_cancelled(observer_, name);
+    observer_.stage_begins(name);
+    report_.stages.push_back({name, 0, 0, {}});
+    const Finish finish{*this, std::chrono::steady_clock::now()};
+    return work();
+  }
+  void count(const std::string& what, double value) { report_.stages.back().counts.emplace_back(what, value); }
+  void warn(std::string text) { report_.warnings.push_back(std::move(text)); }
+
+  /// For a stage's inner loop: passes progress on and throws when cancelled.
+  Checkpoint checkpoint() {
+    return [this, stage = report_.stages.back().name](double fraction) {
+      observer_.progress(fraction);
+      throw_if_cancelled(observer_, stage);
+    };
+  }
+
+ private:
+  struct Finish {
+    Run& run;
+    std::chrono::steady_clock::time_point start;
+    ~Finish() {
+      StageReport& stage = run.report_.stages.back();
+      stage.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      stage.peak_memory_bytes = peak_memory_bytes();
+      run.observer_.stage_ends(stage.name, stage.seconds);
+    }
+  };
+  Report& report_;
+  Observer& observer_;
+};
+
+} // namespace eigencrust

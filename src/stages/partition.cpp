@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// §3.2 and §3.4: from signed graphs to one number per node whose sign is the side.
+#include <cmath>
+#include <limits>
+
+#include <eigencrust/stages.h>
+
+#include "numerics/components.h"
+#include "numerics/eigenvector.h"
+#include "parallel/threads.h"
+
+namespace eigencrust {
+namespace {
+
+IterationControl control_of(const SolverOptions& options, const Checkpoint& checkpoint) {
+  IterationControl control;
+  control.stop_on_stable_signs = options.stop_on_stable_signs;
+  control.stable_share = options.stable_share;
+  control.tolerance = options.tolerance;
+  control.max_steps = options.max_steps;
+  control.checkpoint = checkpoint;
+  return control;
+}
+
+IterationResult solve(const SignedGraph& graph, const SolverOptions& options, const Threads& threads,
+                      const Checkpoint& checkpoint) {
+  BorderedMatrix matrix = signed_laplacian(graph, threads);
+  Vector mass = full_diagonal(matrix);
+  IterationControl control = control_of(options, checkpoint);
+  // Lanczos on a problem smaller than its Krylov space, and the dense case, are the multigrid's coarsest level.
+  if (options.eigensolver == Eigensolver::lanczos && matrix.size() > SignedMultigrid::coarsest_size) {
+    control.max_steps = std::max(control.max_steps, 10000u);
+    return smallest_eigenvector_lanczos(matrix, mass, control, threads);
+  }
+  const SignedMultigrid hierarchy(std::move(matrix), std::move(mass), threads);
+  return smallest_eigenvector(hierarchy, control, threads);
+}
+
+void take_figures(const IterationResult& result, Partition& partition) {
+  partition.eigenvalue = result.eigenvalue;
+  partition.residual = result.residual;
+  partition.iterations = result.steps;
+  partition.sign_changes = result.sign_changes;
+  partition.status = result.status;
+}
+
+/// Largest absolute component 1, so that values of different components can be compared.
+void scale_to_one(Vector& x) {
+  double largest = 0;
+  for (const double v : x) largest = std::max(largest, std::fabs(v));
+  if (largest > 0)
+    for (double& v : x) v /= largest;
+}
+
+/// Eigenvectors of all components; supernodes belong to component 0.
+Partition partition_components(const SignedGraph& graph, const Components& components, const SolverOptions& options,
+                               const Threads& threads, const Checkpoint& checkpoint) {
+  Partition partition;
+  const std::uint32_t n = graph.node_count();
+  partition.value.assign(n, 0.0f);
+  partition.supernode_value.assign(graph.supernodes.size(), 0.0);
+  partition.components = components.count;
+  partition.free_components = components.count - 1;
+  std::vector<std::vector<std::uint32_t>> members(components.count);
+  for (std::uint32_t i = 0; i < n; ++i) members[components.of_node[i]].push_back(i);
+  for (std::uint32_t c = 0; c < components.count; ++c) {
+    if (c > 0 && members[c].size() == 1) { // no edge at all: any sign will do
+      partition.value[members[c].front()] = 1;
+      continue;
+    }
+    if (members[c].empty()) continue;
+    IterationResult result = components.count == 1
+                                 ? solve(graph, options, threads, checkpoint)
+                                 : solve(extract_component(graph, c, members[c]).graph, options, threads, checkpoint);
+    if (c == 0 || (c == 1 && members[0].empty())) take_figures(result, partition);
+    if (result.x.empty()) continue; // not converged at all: no labels, and the status says so
+    scale_to_one(result.x);
+    for (std::size_t k = 0; k < members[c].size(); ++k)
+      partition.value[members[c][k]] = static_cast<float>(result.x[k]);
+    if (c == 0)
+      for (std::size_t s = 0; s < graph.supernodes.size(); ++s)
+        partition.supernode_value[s] = result.x[members[0].size() + s];
+  }
+  for (const float v : partition.value) partition.undecided += v == 0;
+  return partition;
+}
+
+/// Both supernodes given, the rest solved for: the limit λ -> 0 of §3.4 with supernodes of equal size.
+Partition partition_harmonic(const SignedGraph& graph, const SolverOptions& options, const Threads& threads,
+                             const Checkpoint& checkpoint) {
+  BorderedMatrix matrix = signed_laplacian(graph, threads);
+  const std::uint32_t n = graph.node_count();
+  Vector rhs(n);
+  for (std::uint32_t i = 0; i < n; ++i)
+    rhs[i] = static_cast<double>(graph.supernodes[0].weight[i]) - static_cast<double>(graph.supernodes[1].weight[i]);
+  matrix.border.clear();
+  matrix.corner.clear();
+  const SignedMultigrid hierarchy(std::move(matrix), {}, threads);
+  const IterationResult result = conjugate_gradients(hierarchy, rhs, control_of(options, checkpoint), threads);
+  Partition partition;
+  take_figures(result, partition);
+  partition.components = 1;
+  partition.supernode_value = {1, -1};
+  partition.value.assign(result.x.begin(), result.x.end());
+  for (const float v : partition.value) partition.undecided += v == 0;
+  return partition;
+}
+
+} // namespace
+
+Partition partition_poles(const PoleGraph& graph, const SolverOptions& options, const Threads& threads,
+                          std::vector<std::uint32_t>* component, const Checkpoint& checkpoint) {
+  Components components = connected_components(graph.graph);
+  Partition partition = partition_components(graph.graph, components, options, threads, checkpoint);
+  if (component) *component = std::move(components.of_node);
+  return partition;
+}
+
+Partition partition_tetrahedra(const TetrahedronGraph& graph, SecondStage method, const SolverOptions& options,
+                               const Threads& threads, const Checkpoint& checkpoint) {
+  if (graph.graph.node_count() == 0) {
+    Partition nothing;
+    nothing.supernode_value = {1, -1};
+    return nothing;
+  }
+  if (method == SecondStage::harmonic) return partition_harmonic(graph.graph, options, threads, checkpoint);
+  return partition_components(graph.graph, connected_components(graph.graph), options, threads, checkpoint);
+}
+
+} // namespace eigencrust

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <tuple>
+
+#include <eigencrust/error.h>
+#include <eigencrust/stages.h>
+
+#include "geometry/nearest.h"
+#include "geometry/spatial_order.h"
+#include "parallel/threads.h"
+
+namespace eigencrust {
+namespace {
+
+struct Keyed {
+  std::uint64_t key;
+  Vec3 position;
+  std::uint32_t row;
+
+  friend bool operator<(const Keyed& a, const Keyed& b) {
+    return std::tie(a.key, a.position.x, a.position.y, a.position.z, a.row) <
+           std::tie(b.key, b.position.x, b.position.y, b.position.z, b.row);
+  }
+};
+
+void check_extent(const Box3& box) {
+  // Squares and cubes of lengths must stay within the range of double.
+  const double extent = box.diagonal();
+  const double farthest = std::max({std::fabs(box.min.x), std::fabs(box.min.y), std::fabs(box.min.z),
+                                    std::fabs(box.max.x), std::fabs(box.max.y), std::fabs(box.max.z)});
+  if (!(extent < 1e60) || farthest > 1e60)
+    throw Error(ErrorKind::input, "samples", "coordinates are larger than 1e60",
+                "remove stray rows or change the unit of the input");
+  if (extent < 1e-60)
+    throw Error(ErrorKind::input, "samples", "all finite points coincide", "give at least 5 distinct points");
+}
+
+} // namespace
+
+Samples prepare_samples(std::span<const Vec3> points, const Threads& threads) {
+  if (points.size() > 0xfffffff0u)
+    throw Error(ErrorKind::input, "samples", "more than 4,294,967,280 points", "split the cloud");
+  Samples samples;
+  for (const Vec3& p : points) {
+    if (is_finite(p))
+      samples.bounds.add(p);
+    else
+      ++samples.nonfinite;
+  }
+  const std::size_t finite = points.size() - samples.nonfinite;
+  if (finite == 0) throw Error(ErrorKind::input, "samples", "no finite point", "give at least 5 distinct points");
+  check_extent(samples.bounds);
+  samples.origin = samples.bounds.centre();
+  const Box3 box{samples.bounds.min - samples.origin, samples.bounds.max - samples.origin};
+
+  std::vector<Keyed> keyed;
+  keyed.reserve(finite);
+  for (std::uint32_t row = 0; row < points.size(); ++row)
+    if (is_finite(points[row])) keyed.push_back({0, points[row] - samples.origin, row});
+  for_each_index(threads, keyed.size(), [&](std::size_t i) { keyed[i].key = hilbert_key(keyed[i].position, box); });
+  sort_blocks(threads, keyed);
+
+  // Rows with equal coordinates follow one another; the first has the smallest row.
+  samples.positions.raw().reserve(finite + 8);
+  samples.source.raw().reserve(finite);
+  for (const Keyed& k : keyed) {
+    if (!samples.positions.empty() && samples.positions.raw().back() == k.position) {
+      ++samples.duplicates;
+      continue;
+    }
+    samples.positions.raw().push_back(k.position);
+    samples.source.raw().push_back(k.row);
+  }
+  if (samples.positions.size() < 5)
+    throw Error(ErrorKind::input, "samples",
+                "only " + std::to_string(samples.positions.size()) + " distinct finite points",
+                "give at least 5 that are not in one plane");
+  return samples;
+}
+
+double median_spacing(const Samples& samples, std::span<const Vec3> points, std::span<const std::uint32_t> scan_index,
+                      const Threads& threads) {
+  std::vector<double> nearest;
+  if (scan_index.empty()) {
+    nearest = nearest_other(samples.positions.raw(), threads);
+  } else {
+    std::uint32_t scans = 0;
+    for (const std::uint32_t scan : scan_index) scans = std::max(scans, scan + 1);
+    std::vector<std::vector<Vec3>> of_scan(scans);
+    for (std::size_t row = 0; row < points.size(); ++row)
+      if (is_finite(points[row])) of_scan[scan_index[row]].push_back(points[row] - samples.origin);
+    for (std::vector<Vec3>& scan : of_scan) {
+      std::sort(scan.begin(), scan.end());
+      scan.erase(std::unique(scan.begin(), scan.end()), scan.end());
+      const std::vector<double> distances = nearest_other(scan, threads);
+      nearest.insert(nearest.end(), distances.begin(), distances.end());
+    }
+  }
+  if (nearest.empty()) return 0;
+  const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
+  std::nth_element(nearest.begin(), middle, nearest.end());
+  return *middle;
+}
+
+double resolve_grid_spacing(const GridSpacing& option, const Samples& samples, std::span<const Vec3> points,
+                            std::span<const std::uint32_t> scan_index, const Threads& threads) {
+  switch (option.kind) {
+    case GridSpacing::Kind::off:
+      return 0;
+    case GridSpacing::Kind::length:
+      return option.value;
+    case GridSpacing::Kind::percent:
+      return option.value / 100 * samples.bounds.diagonal();
+    case GridSpacing::Kind::automatic:
+      break;
+  }
+  // Merged scans disagree by their registration; a single scan gives no such sign.
+  const bool several =
+      std::any_of(scan_index.begin(), scan_index.end(), [&](std::uint32_t scan) { return scan != scan_index.front(); });
+  return several ? std::sqrt(2.0) * median_spacing(samples, points, scan_index, threads) : 0;
+}
+
+} // namespace eigencrust
