@@ -17,6 +17,7 @@ struct Request {
   bool manifold = Options{}.manifold; // on in both presets
   std::optional<std::uint32_t> smooth;
   std::optional<double> tolerance;
+  std::optional<double> min_agreement, pole_ties;
   std::optional<std::uint32_t> max_steps;
   std::vector<std::string> outside_points, inside_points;
   unsigned threads = Options{}.threads;
@@ -43,6 +44,12 @@ void add_method_options(CLI::App& app, Request& r) {
   app.add_option("--eigensolver", r.eigensolver,
                  "multigrid or lanczos (the slow reference)" +
                      defaults(to_string(robust.solver.eigensolver), to_string(paper.solver.eigensolver)));
+  app.add_option("--min-agreement", r.min_agreement,
+                 "A pole whose neighbours agree less than this on its side waits for the second stage; 0 to 1" +
+                     defaults(rounded(robust.min_agreement), rounded(paper.min_agreement)));
+  app.add_option("--pole-ties", r.pole_ties,
+                 "Weight of the ties between unlabelled tetrahedra and their samples' poles" +
+                     defaults(rounded(robust.pole_ties), rounded(paper.pole_ties)));
   app.add_option("--tolerance", r.tolerance,
                  "Residual at which an eigenvector counts as converged; given, signs alone do not stop it");
   app.add_option("--max-steps", r.max_steps,
@@ -76,6 +83,8 @@ Options effective_options(const Request& r) {
     o.solver.tolerance = *r.tolerance;
     o.solver.stop_on_stable_signs = false;
   }
+  if (r.min_agreement) o.min_agreement = *r.min_agreement;
+  if (r.pole_ties) o.pole_ties = *r.pole_ties;
   if (r.max_steps) o.solver.max_steps = *r.max_steps;
   o.manifold = r.manifold;
   if (!r.components.empty()) o.components = parse_components(r.components);

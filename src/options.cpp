@@ -23,6 +23,7 @@ constexpr Names<SecondStage, 2> second_stages{
 constexpr Names<Questionable, 3> questionables{
     {{Questionable::before, "before"}, {Questionable::after, "after"}, {Questionable::never, "never"}}};
 constexpr Names<GlobalSign, 2> global_signs{{{GlobalSign::vote, "vote"}, {GlobalSign::supernode, "supernode"}}};
+constexpr Names<ManifoldRule, 2> manifold_rules{{{ManifoldRule::cheapest, "cheapest"}, {ManifoldRule::paper, "paper"}}};
 constexpr Names<Smoothing, 2> smoothings{{{Smoothing::laplacian, "laplacian"}, {Smoothing::taubin, "taubin"}}};
 constexpr Names<Axis, 6> axes{{{Axis::plus_x, "+x"},
                                {Axis::minus_x, "-x"},
@@ -79,6 +80,9 @@ Options Options::of(Preset preset) {
     options.second_stage = SecondStage::eigenvector;
     options.questionable = Questionable::after;
     options.global_sign = GlobalSign::supernode;
+    options.min_agreement = 0;
+    options.pole_ties = 0;
+    options.manifold_rule = ManifoldRule::paper;
     options.components.kind = KeepComponents::Kind::all;
   }
   return options;
@@ -89,6 +93,7 @@ std::string to_string(Eigensolver value) { return name_of(eigensolvers, value); 
 std::string to_string(SecondStage value) { return name_of(second_stages, value); }
 std::string to_string(Questionable value) { return name_of(questionables, value); }
 std::string to_string(GlobalSign value) { return name_of(global_signs, value); }
+std::string to_string(ManifoldRule value) { return name_of(manifold_rules, value); }
 std::string to_string(Smoothing value) { return name_of(smoothings, value); }
 std::string to_string(Axis value) { return name_of(axes, value); }
 
@@ -177,6 +182,9 @@ void check_options(const Options& options) {
   require(options.solver.stable_share > 0 && options.solver.stable_share <= 1, "the stable share is not in (0, 1]",
           "use 1e-5");
   require(options.solver.max_steps >= 1, "the solver may take no step", "allow at least one");
+  require(options.min_agreement >= 0 && options.min_agreement <= 1, "the least agreement is not in [0, 1]", "use 0.8");
+  require(options.pole_ties >= 0 && std::isfinite(options.pole_ties), "the weight of the pole ties is negative",
+          "use 0.1");
   require(options.smooth <= 1000, "more than 1000 smoothing steps", "use fewer");
   require(options.threads <= 1024, "more than 1024 threads", "use fewer");
   for (const auto* points : {&options.outside_points, &options.inside_points})

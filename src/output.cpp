@@ -54,6 +54,7 @@ void describe_partition(const std::string& name, const SignedGraph& graph, const
 void describe_pole_labels(const PoleLabels& labels, Run& run) {
   run.count("vote", labels.vote);
   run.count("supernode_overruled", labels.reversed ? 1 : 0);
+  run.count("contradicted", static_cast<double>(labels.contradicted));
   run.count("left_to_stage_two", static_cast<double>(labels.left_to_stage_two));
 }
 

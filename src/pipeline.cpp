@@ -53,15 +53,16 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   const Partition first = run.stage(
       "partition_poles", [&] { return partition_poles(g, options.solver, threads, &component, run.checkpoint()); });
   describe_partition("poles", g.graph, first, run, report);
-  PoleLabels pole_labels = run.stage(
-      "label_poles", [&] { return label_poles(t, poles, g, first, component, known, options.global_sign, threads); });
+  PoleLabels pole_labels = run.stage("label_poles", [&] {
+    return label_poles(t, poles, g, first, component, known, options.global_sign, options.min_agreement, threads);
+  });
   describe_pole_labels(pole_labels, run);
   if (options.questionable == Questionable::after) // §3.3
     run.count("labels_removed", static_cast<double>(unlabel_questionable(questionable, known, pole_labels.labels)));
 
   // §3.4: the second graph H labels the rest
-  const TetrahedronGraph h =
-      run.stage("tetrahedron_graph", [&] { return tetrahedron_graph(t, pole_labels.labels, threads); });
+  const TetrahedronGraph h = run.stage(
+      "tetrahedron_graph", [&] { return tetrahedron_graph(t, poles, pole_labels.labels, options.pole_ties, threads); });
   const Partition second = run.stage("partition_tetrahedra", [&] {
     return partition_tetrahedra(h, options.second_stage, options.solver, threads, run.checkpoint());
   });
@@ -73,7 +74,8 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
 
   // §3.5, §3: manifold, surface
   if (options.manifold) {
-    const auto counts = run.stage("manifold", [&] { return make_manifold(t, stars, poles, labels, run.checkpoint()); });
+    const auto counts = run.stage(
+        "manifold", [&] { return make_manifold(t, stars, poles, options.manifold_rule, labels, run.checkpoint()); });
     run.count("edges_repaired", static_cast<double>(counts.edges));
     run.count("vertices_repaired", static_cast<double>(counts.vertices));
     run.count("tetrahedra_relabelled", static_cast<double>(counts.relabelled));

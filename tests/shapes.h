@@ -3,11 +3,13 @@
 /// Meshes whose every figure is known, for tests. Closed ones are oriented outward.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include <eigencrust/types.h>
 

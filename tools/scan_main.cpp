@@ -44,7 +44,12 @@ struct Settings {
 
 void add_sensor_options(CLI::App& app, Settings& s) {
   const char* group = "Sensors (default: --sensors 8)";
-  app.add_option("--sensor", s.sensors, "a sensor at X,Y,Z; repeatable")->allow_extra_args(false)->group(group);
+  app.add_option("--sensor", s.sensors,
+                 "X,Y,Z[:TARGET[:DEGREES[:RAYS]]]: a sensor there, with its own target X,Y,Z, field of view and rays "
+                 "across for a "
+                 "close-up; repeatable")
+      ->allow_extra_args(false)
+      ->group(group);
   app.add_option(
          "--ring", s.rings,
          "ELEVATION:COUNT[:AZIMUTH]: COUNT sensors at that many degrees above the horizon, the first at AZIMUTH "
@@ -131,6 +136,23 @@ std::vector<Vec3> directions(const Settings& s, const Vec3& up) {
   return result;
 }
 
+/// A sensor with a view of its own, "TARGET[:DEGREES[:RAYS]]".
+Sensor close_up(const Vec3& position, const std::string& view, const Vec3& up, const Settings& s) {
+  const std::size_t colon = view.find(':');
+  Sensor sensor{.position = position, .target = parse_vector(view.substr(0, colon), "--sensor"), .up = up};
+  sensor.columns = sensor.rows = s.resolution;
+  if (s.field_of_view > 0) sensor.field_of_view = s.field_of_view;
+  if (colon == std::string::npos) return sensor;
+  const std::vector<double> v = parse_numbers(view.substr(colon + 1), ':', 1, 2, "--sensor");
+  sensor.field_of_view = v[0];
+  if (v.size() < 2) return sensor;
+  if (!(v[1] >= 1 && v[1] <= 65536 && v[1] == std::floor(v[1])))
+    throw Error(ErrorKind::usage, "--sensor", "'" + view + "' has no whole number of rays from 1 to 65536",
+                "give X,Y,Z:TARGET:DEGREES:RAYS");
+  sensor.columns = sensor.rows = static_cast<std::uint32_t>(v[1]);
+  return sensor;
+}
+
 std::vector<Sensor> make_sensors(const Settings& s, const Box3& box) {
   const Vec3 up = parse_vector(s.up, "--up");
   const Vec3 target = s.look_at.empty() ? box.centre() : parse_vector(s.look_at, "--look-at");
@@ -151,7 +173,12 @@ std::vector<Sensor> make_sensors(const Settings& s, const Box3& box) {
       sensors.push_back(aim_pinhole(target, direction, radius, distance, s.resolution, up));
   };
   for (const std::string& text : s.sensors) {
-    const Vec3 position = parse_vector(text, "--sensor");
+    const std::size_t colon = text.find(':');
+    const Vec3 position = parse_vector(text.substr(0, colon), "--sensor");
+    if (colon != std::string::npos) {
+      sensors.push_back(close_up(position, text.substr(colon + 1), up, s));
+      continue;
+    }
     const double length = distance(position, target);
     if (!(length > 0))
       throw Error(ErrorKind::usage, "--sensor", "a sensor stands on its target", "move it or --look-at");

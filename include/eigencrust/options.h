@@ -38,6 +38,11 @@ enum class Smoothing : std::uint8_t {
   laplacian, ///< §3.6: each vertex to the centroid of its neighbours; shrinks
   taubin     ///< alternating steps that keep the volume (Taubin 1995)
 };
+/// What is relabelled where the surface is no manifold (§3.5).
+enum class ManifoldRule : std::uint8_t {
+  cheapest, ///< the strand, component or path, inside or outside, with the least certain labels
+  paper     ///< inside tetrahedra only: all strands but the strongest, all components but the pole's
+};
 enum class Axis : std::uint8_t { plus_x, minus_x, plus_y, minus_y, plus_z, minus_z };
 
 /// ℓ of §3.3: the diagonal of the squares of the range grid.
@@ -86,8 +91,15 @@ struct Options {
   Questionable questionable = Questionable::before;
   /// How inside is told from outside once the two sides are apart (§3.2).
   GlobalSign global_sign = GlobalSign::vote;
+  /// A pole whose neighbours in the pole graph agree less than this on its side gets no label in the first
+  /// stage; in [0, 1], 0 as in the paper: every pole gets one. docs/decisions/0005.
+  double min_agreement = 0.8;
+  /// Weight of the ties that join unlabelled tetrahedra to the poles of their samples, relative to the
+  /// faces' weights of §3.4; >= 0, 0 as in the paper: none. docs/decisions/0006.
+  double pole_ties = 0.1;
   /// Make the surface a manifold by relabelling (§3.5).
   bool manifold = true;
+  ManifoldRule manifold_rule = ManifoldRule::cheapest;
   KeepComponents components;
   /// Smoothing steps (§3.6); 0: none. Vertices then leave the samples.
   std::uint32_t smooth = 0;
@@ -109,6 +121,7 @@ std::string to_string(Eigensolver value);
 std::string to_string(SecondStage value);
 std::string to_string(Questionable value);
 std::string to_string(GlobalSign value);
+std::string to_string(ManifoldRule value);
 std::string to_string(Smoothing value);
 std::string to_string(Axis value);
 std::string to_string(const GridSpacing& value);

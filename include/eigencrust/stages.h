@@ -69,24 +69,29 @@ Partition partition_poles(const PoleGraph& graph, const SolverOptions& options, 
 
 /// §3.2: labels from the signs of the partition, added to what is known. Nodes of components without a
 /// supernode take the side that their labelled neighbours by face vote for by two thirds, else none.
+/// A node gets no label when its neighbours' agreement Σ w x / Σ |w x| with its own sign is below
+/// min_agreement (0: all get one; not in the paper, see docs/decisions).
 struct PoleLabels {
   Labels labels;
   bool reversed = false;               ///< the vote overruled the outside supernode's own sign
   double vote = 0;                     ///< evidence for the sign chosen, in [-1, 1]; 1 = unanimous
   std::uint64_t left_to_stage_two = 0; ///< poles of components whose side is open
+  std::uint64_t contradicted = 0;      ///< poles without a label because their neighbours disagree
 };
 PoleLabels label_poles(const Tetrahedralization& tetrahedralization, const Poles& poles, const PoleGraph& graph,
                        const Partition& partition, std::span<const std::uint32_t> component, const Labels& known,
-                       GlobalSign global_sign, const Threads& threads);
+                       GlobalSign global_sign, double min_agreement, const Threads& threads);
 
 /// §3.3: removes the labels of questionable tetrahedra but for those known beforehand.
 /// \return how many
 std::uint64_t unlabel_questionable(std::span<const std::uint8_t> questionable, const Labels& known, Labels& labels);
 
 /// §3.4: one node per unlabelled tetrahedron, supernodes for all outside (0) and all inside (1) ones;
-/// a face weighs longest/shortest of its edges.
-TetrahedronGraph tetrahedron_graph(const Tetrahedralization& tetrahedralization, const Labels& labels,
-                                   const Threads& threads);
+/// a face weighs longest/shortest of its edges. With pole_ties > 0 each node is also joined to the
+/// supernodes by that factor times Σ e^(4 cos ∠(c s p)) over the poles p of its samples s whose two poles
+/// have opposite labels, c being its circumcentre (not in the paper).
+TetrahedronGraph tetrahedron_graph(const Tetrahedralization& tetrahedralization, const Poles& poles,
+                                   const Labels& labels, double pole_ties, const Threads& threads);
 
 /// §3.4: `eigenvector` as in the paper; `harmonic`: outside fixed at +1, inside at -1.
 Partition partition_tetrahedra(const TetrahedronGraph& graph, SecondStage method, const SolverOptions& options,
@@ -101,13 +106,14 @@ struct FinalLabels {
 };
 FinalLabels label_tetrahedra(const TetrahedronGraph& graph, const Partition& partition, Labels labels);
 
-/// §3.5: relabels tetrahedra from inside to outside until the surface is a manifold.
+/// §3.5: relabels tetrahedra until the surface is a manifold. With the paper's rule labels only go from
+/// inside to outside; with `cheapest` a tetrahedron may once go the other way, so both end.
 struct ManifoldCounts {
   std::uint64_t edges = 0, vertices = 0; ///< repairs of either kind
   std::uint64_t relabelled = 0;          ///< tetrahedra
 };
 ManifoldCounts make_manifold(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
-                             FinalLabels& labels, const Checkpoint& checkpoint = {});
+                             ManifoldRule rule, FinalLabels& labels, const Checkpoint& checkpoint = {});
 
 /// §3: the faces between inside and outside, counter-clockwise seen from outside; sample_of[v] is the
 /// sample behind vertex v, coordinates are still relative to the origin.

@@ -66,11 +66,21 @@ class RowReader {
     if (names_axes(names)) comment_names_ = names;
   }
 
+  /// Does the row name things? Where columns are known, the one of x decides: others may hold words.
+  [[nodiscard]] bool is_header() const {
+    const auto names_x = [](const std::string& name) { return equal_ignoring_case(name, "x"); };
+    const auto named = std::find_if(options_.columns.begin(), options_.columns.end(), names_x);
+    const auto column = static_cast<std::size_t>(named - options_.columns.begin());
+    const auto filled = std::find_if(fields_.begin(), fields_.end(), [](std::string_view f) { return !f.empty(); });
+    if (filled == fields_.end()) return false;
+    double number = 0;
+    const bool known = named != options_.columns.end() && column < fields_.size();
+    return !parse(known ? fields_[column] : *filled, number);
+  }
+
   /// Names the columns at the first row; false when this is the header line.
   bool begin_table() {
-    const auto first = std::find_if(fields_.begin(), fields_.end(), [](std::string_view f) { return !f.empty(); });
-    double number = 0;
-    if (header_.empty() && first != fields_.end() && !parse(*first, number)) {
+    if (header_.empty() && is_header()) {
       header_.assign(fields_.begin(), fields_.end());
       header_line_ = lines_.number();
       return false;

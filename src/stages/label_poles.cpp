@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // §3.2: labels from the signs of the first partition.
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <cstdio>
 
 #include <eigencrust/stages.h>
 
@@ -47,11 +46,27 @@ std::uint64_t label_free_components(const Tetrahedralization& t, const Poles& po
   return open;
 }
 
+/// How far a node's neighbours agree on its side, in [-1, 1]: Σ w x / Σ |w| |x|, times the node's sign.
+/// It does not depend on how large the vector is hereabouts, so a localized vector does no harm.
+double agreement(const SignedGraph& graph, const Partition& partition, std::uint32_t node) {
+  double sum = 0, size = 0;
+  const auto add = [&](double w, double x) {
+    sum += w * x;
+    size += std::fabs(w * x);
+  };
+  for (std::uint64_t e = graph.row_begin[node]; e < graph.row_begin[node + 1]; ++e)
+    add(static_cast<double>(graph.weight[e]), static_cast<double>(partition.value[graph.column[e]]));
+  for (std::size_t s = 0; s < graph.supernodes.size(); ++s)
+    add(static_cast<double>(graph.supernodes[s].weight[node]), partition.supernode_value[s]);
+  if (size == 0) return 1; // a node without edges contradicts nobody
+  return (partition.value[node] > 0 ? sum : -sum) / size;
+}
+
 } // namespace
 
 PoleLabels label_poles(const Tetrahedralization& t, const Poles& poles, const PoleGraph& graph,
                        const Partition& partition, std::span<const std::uint32_t> component, const Labels& known,
-                       GlobalSign global_sign, const Threads& threads) {
+                       GlobalSign global_sign, double min_agreement, const Threads& threads) {
   PoleLabels result;
   result.labels = known;
   // The supernode's own component may be 0 when the vector is localized elsewhere; positive then stands.
@@ -65,15 +80,21 @@ PoleLabels label_poles(const Tetrahedralization& t, const Poles& poles, const Po
     result.vote = std::fabs(result.vote);
   }
   result.reversed = outside_sign != own;
-  const char* th = getenv("EC_TH"); const double theta = th ? atof(th) : 0; std::size_t skipped = 0;
+  std::vector<std::uint8_t> is_sure(graph.pole.size(), 1);
+  if (min_agreement > 0)
+    for_each_index(threads, is_sure.size(), [&](std::size_t node) {
+      is_sure[node] = agreement(graph.graph, partition, static_cast<std::uint32_t>(node)) >= min_agreement;
+    });
   for (std::uint32_t node = 0; node < graph.pole.size(); ++node) {
-    { double sum = 0, size = 0; for (auto e = graph.graph.row_begin[node]; e < graph.graph.row_begin[node + 1]; ++e) { double v = double(graph.graph.weight[e]) * double(partition.value[graph.graph.column[e]]); sum += v; size += std::fabs(v);} double v = double(graph.graph.supernodes[0].weight[node]) * partition.supernode_value[0]; sum += v; size += std::fabs(v); if (sum * (partition.value[node] > 0 ? 1 : -1) < theta * size) { ++skipped; continue; } }
     if ((!component.empty() && component[node] != 0) || partition.value[node] == 0) continue;
+    if (!is_sure[node]) {
+      ++result.contradicted;
+      continue;
+    }
     const TetrahedronIndex tetrahedron = poles.tetrahedron[graph.pole.raw()[node]];
-    result.labels[tetrahedron] =
-        (static_cast<double>(partition.value[node]) * outside_sign > 0) ? Label::outside : Label::inside;
+    const bool outside = static_cast<double>(partition.value[node]) * outside_sign > 0;
+    result.labels[tetrahedron] = outside ? Label::outside : Label::inside;
   }
-  if (th) fprintf(stderr, "skipped %zu\n", skipped);
   result.left_to_stage_two = label_free_components(t, poles, graph, partition, component, result.labels);
   return result;
 }

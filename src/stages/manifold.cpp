@@ -16,8 +16,17 @@ namespace {
 
 class ManifoldRepair {
  public:
-  ManifoldRepair(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, FinalLabels& labels)
-      : t_(t), stars_(stars), poles_(poles), labels_(labels), star_(t, stars), waiting_(t.sample_count, 1) {}
+  ManifoldRepair(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, ManifoldRule rule,
+                 FinalLabels& labels)
+      : t_(t),
+        stars_(stars),
+        poles_(poles),
+        rule_(rule),
+        labels_(labels),
+        star_(t, stars),
+        waiting_(t.sample_count, 1) {
+    if (rule_ == ManifoldRule::cheapest) filled_.assign(t.tetrahedra.size(), 0);
+  }
 
   ManifoldCounts run(const Checkpoint& checkpoint) {
     std::vector<std::uint32_t> round(t_.sample_count);
@@ -48,13 +57,94 @@ class ManifoldRepair {
   void repair(SampleIndex s) {
     if (!is_mixed(s)) return;
     star_.fill(s);
-    while (repair_one_edge()) {
-    }
+    repair_edges();
     if (!is_mixed(s)) return;
+    if (rule_ == ManifoldRule::cheapest) {
+      while (repair_vertex_cheaply()) repair_edges(); // a flip may have spoilt an edge again
+      return;
+    }
     keep_one_inside_component(s);
     while (join_two_outside_components()) {
     }
   }
+
+  void repair_edges() {
+    while (repair_one_edge()) {
+    }
+  }
+
+  // The cheapest of all flips, either way.
+
+  /// May this tetrahedron become inside? Each may once, so that repairs end; the cube's never.
+  bool may_fill(std::uint32_t i) const { return !filled_[star_[i].value] && !t_.touches_cube(star_[i]); }
+
+  void flip(std::uint32_t i) {
+    if (labels_.labels[star_[i]] == Label::inside) return set_outside(i);
+    const TetrahedronIndex tetrahedron = star_[i];
+    labels_.labels[tetrahedron] = Label::inside;
+    filled_[tetrahedron.value] = 1;
+    ++counts_.relabelled;
+    for (const SampleIndex v : t_.tetrahedra[tetrahedron]) waiting_[v.value] = 1;
+  }
+
+  struct Candidate {
+    double price = std::numeric_limits<double>::infinity();
+    std::vector<std::uint32_t> members;
+  };
+
+  /// Offers the cheapest set of `label` (at an edge, or in the whole star); its price is Σ |value|.
+  /// \return how many such sets there are
+  std::uint32_t offer_components(Label label, SampleIndex edge, Candidate& best) {
+    const std::uint32_t count = star_.components(labels_.labels, label, edge, component_);
+    if (count < 2) return count;
+    price_.assign(count, 0.0);
+    for (std::uint32_t i = 0; i < star_.size(); ++i) {
+      if (component_[i] == Star::none) continue;
+      const bool forbidden = label == Label::outside && !may_fill(i);
+      price_[component_[i]] += forbidden ? std::numeric_limits<double>::infinity() : static_cast<double>(magnitude(i));
+    }
+    const auto cheapest = static_cast<std::uint32_t>(std::min_element(price_.begin(), price_.end()) - price_.begin());
+    if (price_[cheapest] >= best.price) return count;
+    best.price = price_[cheapest];
+    best.members.clear();
+    for (std::uint32_t i = 0; i < star_.size(); ++i)
+      if (component_[i] == cheapest) best.members.push_back(i);
+    return count;
+  }
+
+  /// Offers the cheapest path through the other label that joins two sets of `label`.
+  void offer_path(Label label, Candidate& best) {
+    if (star_.components(labels_.labels, label, SampleIndex{}, component_) < 2) return;
+    std::vector<std::uint32_t> path = cheapest_path(label);
+    double price = 0;
+    for (const std::uint32_t i : path) price += static_cast<double>(magnitude(i));
+    if (path.empty() || price >= best.price) return;
+    best.price = price;
+    best.members = std::move(path);
+  }
+
+  bool repair_vertex_cheaply() {
+    Candidate best;
+    const std::uint32_t inside = offer_components(Label::inside, SampleIndex{}, best);
+    const std::uint32_t outside = offer_components(Label::outside, SampleIndex{}, best);
+    if (inside < 2 && outside < 2) return false;
+    offer_path(Label::inside, best);
+    offer_path(Label::outside, best);
+    for (const std::uint32_t i : best.members) flip(i);
+    ++counts_.vertices;
+    return !best.members.empty();
+  }
+
+  bool repair_edge_cheaply(SampleIndex edge) {
+    Candidate best;
+    if (offer_components(Label::inside, edge, best) < 2) return false;
+    offer_components(Label::outside, edge, best);
+    for (const std::uint32_t i : best.members) flip(i);
+    ++counts_.edges;
+    return true;
+  }
+
+  // The paper's rule.
 
   void set_outside(std::uint32_t i) {
     const TetrahedronIndex tetrahedron = star_[i];
@@ -102,6 +192,10 @@ class ManifoldRepair {
     std::sort(surface_ends_.begin(), surface_ends_.end());
     for (std::size_t i = 0; i + 2 < surface_ends_.size(); ++i) {
       if (surface_ends_[i] != surface_ends_[i + 2]) continue;
+      if (rule_ == ManifoldRule::cheapest) {
+        if (repair_edge_cheaply(surface_ends_[i])) return true;
+        continue;
+      }
       if (star_.components(labels_.labels, Label::inside, surface_ends_[i], component_) < 2) continue;
       drop_all_but(strongest_component());
       ++counts_.edges;
@@ -127,10 +221,16 @@ class ManifoldRepair {
     ++counts_.vertices;
   }
 
-  /// Shortest path through inside tetrahedra of the star from the first outside component to another,
-  /// length Σ |value|; relabelled outside.
   bool join_two_outside_components() {
     if (star_.components(labels_.labels, Label::outside, SampleIndex{}, component_) < 2) return false;
+    for (const std::uint32_t i : cheapest_path(Label::outside)) set_outside(i);
+    ++counts_.vertices;
+    return true;
+  }
+
+  /// Shortest face-connected path through the star from the first set of component_ to another, not
+  /// counting those sets; length Σ |value|. Only tetrahedra that may become `label` are walked through.
+  std::vector<std::uint32_t> cheapest_path(Label label) const {
     using Entry = std::tuple<double, std::uint32_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     std::vector<double> length(star_.size(), std::numeric_limits<double>::infinity());
@@ -145,13 +245,13 @@ class ManifoldRepair {
       queue.pop();
       if (d > length[i]) continue;
       if (component_[i] != Star::none && component_[i] != 0) {
+        std::vector<std::uint32_t> path;
         for (std::uint32_t p = previous[i]; p != Star::none && component_[p] == Star::none; p = previous[p])
-          set_outside(p);
-        ++counts_.vertices;
-        return true;
+          path.push_back(p);
+        return path;
       }
       for (const std::uint32_t n : star_.neighbours(i)) {
-        if (n == Star::none) continue;
+        if (n == Star::none || (component_[n] == Star::none && label == Label::inside && !may_fill(n))) continue;
         const double step = component_[n] == Star::none ? static_cast<double>(magnitude(n)) : 0.0;
         if (d + step >= length[n]) continue;
         length[n] = d + step;
@@ -159,16 +259,19 @@ class ManifoldRepair {
         queue.emplace(length[n], n);
       }
     }
-    return false; // a closed star is face-connected, so this is not reached
+    return {};
   }
 
   const Tetrahedralization& t_;
   const VertexStars& stars_;
   const Poles& poles_;
+  ManifoldRule rule_;
   FinalLabels& labels_;
   Star star_;
   std::vector<std::uint8_t> waiting_;
+  std::vector<std::uint8_t> filled_;
   std::vector<std::uint32_t> component_;
+  std::vector<double> price_;
   std::vector<SampleIndex> surface_ends_;
   ManifoldCounts counts_;
 };
@@ -176,8 +279,8 @@ class ManifoldRepair {
 } // namespace
 
 ManifoldCounts make_manifold(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles,
-                             FinalLabels& labels, const Checkpoint& checkpoint) {
-  return ManifoldRepair(t, stars, poles, labels).run(checkpoint);
+                             ManifoldRule rule, FinalLabels& labels, const Checkpoint& checkpoint) {
+  return ManifoldRepair(t, stars, poles, rule, labels).run(checkpoint);
 }
 
 } // namespace eigencrust

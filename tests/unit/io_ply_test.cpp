@@ -188,6 +188,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"ply\nformat ascii 1.0\nelement vertex 2\n" XYZ "end_header\n1 2 3\n    \n", "the file ends after row 1"},
         // More rows than bytes: refused before anything is allocated.
         Bad{"ply\nformat ascii 1.0\nelement vertex 4000000000\n" XYZ "end_header\n1 2 3\n", "too short to hold"},
+        // 12 times this is 8 modulo 2^64.
+        Bad{"ply\nformat binary_little_endian 1.0\nelement vertex 1537228672809129302\n" XYZ "end_header\n12345678",
+            "the file ends within element 'vertex'"},
         Bad{"ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\n" XYZ "end_header\n1234",
             "the file ends within element 'vertex'"},
         Bad{"ply\nformat ascii 1.0\nelement vertex 1\n" XYZ "end_header\n1 2\n\n", "a.ply:8"},

@@ -88,6 +88,8 @@ TEST_F(IoPoints, ColumnsWithoutAHeader) {
   const PointCloud c = read("a.txt", "id y x h w q\nP1 2 1 3 7 8\n", {"-", "y", "x", "z", "w"});
   EXPECT_THAT(c.points, ElementsAre(Vec3{1, 2, 3}));
   EXPECT_THAT(described(c), ElementsAre("w float64", "column6 float64"));
+  // Words in a skipped column make no header of the first row.
+  EXPECT_EQ(read("a.txt", "P1 1 2 3\nP2 4 5 6\n", {"-", "x", "y", "z"}).points.size(), 2u);
   // An empty field of a table is an unknown value.
   const PointCloud gaps = read("a.csv", "x,y,z,p,q\n1,2,3,,5\n1,2,3,4,\n");
   EXPECT_TRUE(std::isnan(attribute_value(gaps.attributes[0], 0)));
@@ -145,6 +147,8 @@ TEST_F(IoPoints, PtsWithWrongCounts) {
   EXPECT_THAT(error("a.pts", "1\n1 2 3\n4 5 6\n"), HasSubstr("too small"));
   EXPECT_THAT(error("a.pts", "18446744073709551615\n1 2 3\n"), HasSubstr("but only 1 follow"));
   EXPECT_THAT(error("a.pts", "1\n1 2\n"), HasSubstr("2 fields"));
+  // Else one row of a thousand columns would give a thousand to every row of the other blocks.
+  EXPECT_THAT(error("a.pts", "1\n1 2 3 4 5\n1\n1 2 3\n"), HasSubstr("a.pts:4"));
   EXPECT_THAT(error("a.pts", "2\n1 2 3\n1 2 3 4\n"), HasSubstr("a.pts:3"));
 }
 

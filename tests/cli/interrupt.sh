@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# shellcheck shell=bash disable=SC2154
+# Statuses 130 and 4: cancelled, or out of memory. No file is left.
+
+set -m # background jobs get SIGINT only with job control
+
+# interrupt_at STAGE [SIGNAL]: sends it when the stage begins; $status and $waited, in milliseconds, tell the rest.
+interrupt_at() {
+  local stage=$1 signal=${2:-INT} begin
+  # With few cores the run must still be long enough to be hit.
+  "$program" big.xyz -o mesh.ply --report report.json --progress jsonl >out 2>err &
+  local child=$!
+  for _ in $(seq 6000); do
+    if grep -q "\"stage\":\"$stage\",\"event\":\"begin\"" err; then break; fi
+    kill -0 "$child" 2>/dev/null || break
+    sleep 0.01
+  done
+  begin=$(date +%s%N)
+  kill -s "$signal" "$child" 2>/dev/null || die "the run was over before '$stage' began"
+  status=0
+  wait "$child" || status=$?
+  waited=$((($(date +%s%N) - begin) / 1000000))
+}
+
+expect_prompt_end() {
+  echo "$1: ended $waited ms after the signal"
+  equal "status after a signal in $1" "$status" 130
+  [ "$waited" -lt "${EIGENCRUST_PATIENCE_MS:-2000}" ] || die "it took $waited ms to stop in $1"
+  grep -qE '^eigencrust: error: .+ \(.+\); .+$' err || die "no message after a signal in $1"
+  expect_files big.xyz
+}
+
+test_interrupt_in_delaunay() {
+  sphere 300000 >big.xyz
+  interrupt_at delaunay
+  expect_prompt_end delaunay
+}
+
+test_interrupt_in_pole_graph() {
+  sphere 300000 >big.xyz
+  interrupt_at pole_graph
+  expect_prompt_end pole_graph
+}
+
+test_interrupt_in_partition() {
+  sphere 300000 >big.xyz
+  interrupt_at partition_poles
+  expect_prompt_end partition_poles
+}
+
+test_interrupt_in_second_partition() {
+  sphere 300000 >big.xyz
+  interrupt_at partition_tetrahedra
+  expect_prompt_end partition_tetrahedra
+}
+
+test_interrupt_in_validation() {
+  sphere 300000 >big.xyz
+  interrupt_at validate
+  expect_prompt_end validate
+}
+
+test_interrupt_while_reading() {
+  sphere 300000 >big.xyz
+  cp big.xyz whole
+  for _ in 1 2 3 4 5 6; do cat whole; done >big.xyz
+  rm whole
+  "$program" big.xyz -o mesh.ply >out 2>err &
+  local child=$! begin
+  sleep 0.1
+  begin=$(date +%s%N)
+  kill -s INT "$child"
+  status=0
+  wait "$child" || status=$?
+  waited=$((($(date +%s%N) - begin) / 1000000))
+  expect_prompt_end reading
+}
+
+test_terminate() {
+  sphere 300000 >big.xyz
+  interrupt_at delaunay TERM
+  [ "$status" -eq 130 ] || [ "$status" -eq 143 ] || die "status $status after SIGTERM"
+  expect_files big.xyz
+}
+
+test_interrupt_leaves_the_old_mesh() {
+  sphere 300000 >big.xyz
+  echo "the old mesh" >mesh.ply
+  interrupt_at delaunay
+  equal status "$status" 130
+  equal "the mesh" "$(cat mesh.ply)" "the old mesh"
+  expect_files big.xyz mesh.ply
+}
+
+# Whatever the limit, the run ends with a mesh or with status 4, never with a crash.
+test_out_of_memory() {
+  sphere 100000 >cloud.xyz
+  local limit refused=0 done=0
+  for limit in 60000 100000 150000 200000 260000 330000 420000 4000000; do
+    (
+      ulimit -v "$limit"
+      run cloud.xyz -o mesh.ply --threads 2
+      exit "$status"
+    ) && status=0 || status=$?
+    case $status in
+      0)
+        done=$((done + 1))
+        expect_files cloud.xyz mesh.ply
+        rm mesh.ply
+        ;;
+      4)
+        refused=$((refused + 1))
+        grep -qE '^eigencrust: error: .+ \(.+\); .+$' err || die "no message with $limit kB"
+        expect_files cloud.xyz
+        ;;
+      *) die "status $status with $limit kB of memory" ;;
+    esac
+  done
+  echo "refused $refused times, done $done times"
+  [ "$refused" -ge 2 ] || die "memory was never short"
+  [ "$done" -ge 1 ] || die "memory was always short"
+}

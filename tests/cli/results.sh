@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# shellcheck shell=bash disable=SC2154
+# What a run gives: the same bytes for any number of threads, attributes, scans, the report.
+
+test_threads_do_not_matter() {
+  sphere 20000 >cloud.xyz
+  local threads
+  expect 0 cloud.xyz -o one.ply --threads 1
+  for threads in 0 2 3 7; do
+    expect 0 cloud.xyz -o many.ply --threads "$threads"
+    same one.ply many.ply
+  done
+}
+
+test_threads_do_not_matter_on_a_noisy_scan() {
+  local scan=$repository/examples/teapot_scan.ply
+  expect 0 "$scan" -o one.ply --threads 1
+  expect 0 "$scan" -o two.ply --threads 2
+  same one.ply two.ply
+}
+
+test_order_of_rows_does_not_matter() {
+  # With an inner sphere there is something to decide.
+  { sphere 3000; sphere 1000 0.4; } >cloud.xyz
+  shuffled <cloud.xyz >other.xyz
+  if cmp -s cloud.xyz other.xyz; then die "the rows were not shuffled"; fi
+  expect 0 cloud.xyz -o cloud.obj
+  expect 0 other.xyz -o other.obj
+  triangles cloud.obj >a
+  triangles other.obj >b
+  [ "$(wc -l <a)" -gt 5000 ] || die "hardly any triangles"
+  same a b
+}
+
+# Every vertex carries the values of its row, under their names and types.
+test_attributes_survive() {
+  {
+    printf 'ply\nformat ascii 1.0\nelement vertex 500\nproperty float x\nproperty float y\nproperty float z\n'
+    printf 'property uchar red\nproperty ushort label\nproperty double time\nproperty int row\nend_header\n'
+    sphere 500 | awk '{ print $0, NR % 256, 60000 + NR, NR / 7 + 1e6, NR - 1 }'
+  } >cloud.ply
+  expect 0 cloud.ply -o mesh.ply
+  local wanted
+  for wanted in "uchar red" "ushort label" "double time" "int row" "uint source_index"; do
+    sed '/end_header/q' mesh.ply | grep -aqx "property $wanted" || die "no property $wanted"
+  done
+  "$probe" rows mesh.ply >rows
+  equal columns "$(head -1 rows)" "x y z red label time row source_index"
+  equal rows "$(tail -n +2 rows | wc -l)" 500
+  # red, label and time follow from row; row and source_index agree.
+  tail -n +2 rows | awk '{
+      n = $7 + 1
+      if ($4 != n % 256 || $5 != 60000 + n || $8 != $7) { print "row", n, "differs:", $0; exit 1 }
+      d = $6 - n / 7 - 1e6
+      if (d > 0.001 || d < -0.001) { print "time of row", n, "differs:", $0; exit 1 }
+    }' || die "attributes do not belong to their vertices"
+  # The vertex is the point of that row.
+  tail -n +2 rows | sort -n -k 8 | awk '{ printf "%.6f %.6f %.6f\n", $1, $2, $3 }' >found
+  sphere 500 | awk '{ printf "%.6f %.6f %.6f\n", $1, $2, $3 }' >wanted
+  same found wanted
+}
+
+test_columns_of_a_text_file() {
+  sphere 500 | awk '{ print NR - 1, $3, $2, $1, 7 }' >cloud.txt
+  expect 0 cloud.txt -o mesh.ply --columns row,z,y,x,-
+  "$probe" rows mesh.ply >rows
+  equal columns "$(head -1 rows)" "x y z row source_index"
+  tail -n +2 rows | awk '$4 != $5 { exit 1 }' || die "row is not the row"
+}
+
+# source_index counts over all files.
+test_several_inputs() {
+  { printf 'x y z row\n'; sphere 500 | awk '{ print $0, NR - 1 }'; } >a.txt
+  { printf 'x y z row\n'; sphere 300 1 5 | awk '{ print $0, 499 + NR }'; } >b.txt
+  expect 0 a.txt b.txt -o mesh.ply --report report.json --components all
+  equal points "$(value report.json /input/points)" 800
+  equal "points of b" "$(value report.json /input/files/1/points)" 300
+  "$probe" rows mesh.ply >rows
+  equal columns "$(head -1 rows)" "x y z row source_index"
+  tail -n +2 rows | awk '$4 != $5 { exit 1 }' || die "source_index does not count over all files"
+  equal "vertices of a" "$(tail -n +2 rows | awk '$5 < 500' | wc -l)" 500
+  equal "vertices of b" "$(tail -n +2 rows | awk '$5 >= 500' | wc -l)" 300
+  expect 0 check mesh.ply --json
+  equal components "$(value out /components)" 2
+  expect 0 info a.txt b.txt --json
+  equal scans "$(value out /scans)" 2
+}
+
+test_attribute_of_one_file_only() {
+  { printf 'x y z heat\n'; sphere 300 | awk '{ print $0, 5 }'; } >a.txt
+  sphere 300 1 5 >b.txt
+  expect 0 a.txt b.txt -o mesh.ply --components all
+  "$probe" rows mesh.ply >rows
+  equal columns "$(head -1 rows)" "x y z heat source_index"
+  tail -n +2 rows | awk '($5 < 300) != ($4 == 5) { exit 1 }' || die "heat is in the wrong rows"
+}
+
+test_report_holds_what_is_promised() {
+  sphere 1000 >cloud.xyz
+  expect 0 reconstruct cloud.xyz -o mesh.ply --report report.json --smooth 2
+  local key
+  for key in /schema /version /command/0 /input/files/0/path /input/files/0/sha256 /input/files/0/points \
+    /input/files/0/sensor /input/points /input/duplicates /input/nonfinite /input/spacing /input/bounds/min/2 \
+    /options/preset /options/grid_spacing /options/second_stage /options/eigensolver /options/questionable \
+    /options/manifold /options/components /options/smooth /options/smoothing /options/threads \
+    /stages/0/name /stages/0/seconds /stages/0/peak_memory_bytes \
+    /partitions/0/stage /partitions/0/nodes /partitions/0/edges /partitions/0/eigenvalue /partitions/0/residual \
+    /partitions/0/iterations /partitions/0/sign_changes /partitions/0/status \
+    /mesh/vertices /mesh/triangles /mesh/boundary_edges /mesh/nonmanifold_edges /mesh/nonmanifold_vertices \
+    /mesh/inconsistent_edges /mesh/degenerate_triangles /mesh/self_intersections /mesh/components /mesh/genus \
+    /mesh/euler /mesh/volume /mesh/area /mesh/component_list/0/triangles \
+    /grid_spacing /dropped_components /undecided_nodes /seconds /peak_memory_bytes /warnings; do
+    value report.json "$key" >/dev/null || die "the report lacks $key"
+  done
+  equal schema "$(value report.json /schema)" 1
+  equal smooth "$(value report.json /options/smooth)" 2
+  equal sha256 "$(value report.json /input/files/0/sha256)" "$(sha256sum cloud.xyz | cut -d ' ' -f 1)"
+  equal command "$(value report.json /command/1)" reconstruct
+  equal version "eigencrust $(value report.json /version)" "$("$program" --version)"
+}
+
+test_report_agrees_with_check() {
+  { sphere 2000; sphere 500 0.3 5; } >cloud.xyz
+  expect 0 cloud.xyz -o mesh.ply --report report.json --components all
+  expect 0 check mesh.ply --json
+  local key
+  for key in vertices triangles components genus euler boundary_edges self_intersections; do
+    equal "$key" "$(value out "/$key")" "$(value report.json "/mesh/$key")"
+  done
+}
+
+test_components() {
+  { sphere 2000; sphere 500 0.3 5; } >cloud.xyz
+  expect 0 cloud.xyz -o all.ply --components all --report report.json
+  equal all "$(value report.json /mesh/components)" 2
+  expect 0 cloud.xyz -o one.ply --components largest --report report.json
+  equal largest "$(value report.json /mesh/components)" 1
+  expect 0 cloud.xyz -o one.ply --components 1 --report report.json
+  equal 1 "$(value report.json /mesh/components)" 1
+  equal vertices "$(value report.json /mesh/vertices)" 2000
+  equal dropped "$(value report.json /dropped_components/0/vertices)" 500
+}
+
+test_presets() {
+  sphere 1000 >cloud.xyz
+  local preset
+  for preset in robust paper; do
+    expect 0 cloud.xyz -o "$preset.ply" --preset "$preset" --report "$preset.json"
+    equal preset "$(value "$preset.json" /options/preset)" "$preset"
+    expect 0 check "$preset.ply"
+  done
+  equal "second stage" "$(value paper.json /options/second_stage)" eigenvector
+  equal "second stage" "$(value robust.json /options/second_stage)" harmonic
+  # A preset is a start; options go before it.
+  expect 0 cloud.xyz -o mesh.ply --preset paper --second-stage harmonic --report report.json
+  equal "second stage" "$(value report.json /options/second_stage)" harmonic
+}
+
+test_facade_stays_open() {
+  awk 'BEGIN { for (i = 0; i < 1600; ++i) { x = i % 40; y = int(i / 40); print x, y, 2 * sin(x / 5) * cos(y / 6) } }' \
+    >wall.xyz
+  expect 0 wall.xyz -o wall.ply --facade +z
+  expect 6 check wall.ply --json
+  equal manifold "$(value out /nonmanifold_edges)$(value out /nonmanifold_vertices)" 00
+  [ "$(value out /boundary_edges)" -gt 0 ] || die "no boundary"
+}
+
+test_verb_may_be_left_out() {
+  sphere 500 >cloud.xyz
+  expect 0 cloud.xyz -o a.ply
+  expect 0 reconstruct cloud.xyz -o b.ply
+  same a.ply b.ply
+}
+
+test_far_coordinates() {
+  # A survey grid: metres, millions of them from the origin. Float would melt the points into one another.
+  sphere 1000 | awk '{ printf "%.6f %.6f %.6f\n", 4500000 + $1 / 50, 5600000 + $2 / 50, 300 + $3 / 50 }' >cloud.xyz
+  expect 0 cloud.xyz -o mesh.ply --report report.json
+  equal vertices "$(value report.json /mesh/vertices)" 1000
+  sed '/end_header/q' mesh.ply | grep -aqx "property double x" || die "the coordinates are not double"
+  expect 0 check mesh.ply
+}

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# shellcheck shell=bash disable=SC2154
+# info, check, compare, render, demo.
+
+test_check_accepts_a_closed_mesh() {
+  tetrahedron >a.off
+  expect 0 check a.off
+  grep -q 'closed: yes, manifold: yes, oriented: yes' out || die "not accepted"
+  expect 0 check a.off --json
+  equal vertices "$(value out /vertices)" 4
+  equal triangles "$(value out /triangles)" 4
+  equal euler "$(value out /euler)" 2
+  awk -v v="$(value out /volume)" 'BEGIN { exit !(v > 0.16666 && v < 0.16667) }' || die "the volume is not 1/6"
+}
+
+test_check_refuses_an_open_mesh() {
+  open_tetrahedron >a.off
+  expect 6 check a.off
+  grep -q 'closed: no (3 boundary edges)' out || die "boundary edges not told"
+  [ ! -s err ] || die "a finding is no error message"
+  expect 6 check a.off --json
+  equal "boundary edges" "$(value out /boundary_edges)" 3
+}
+
+test_check_refuses_wrong_orientation() {
+  tetrahedron | sed 's/^3 0 2 1$/3 0 1 2/' >a.off
+  expect 6 check a.off --json
+  equal "inconsistent edges" "$(value out /inconsistent_edges)" 3
+}
+
+test_check_refuses_a_bow_tie() {
+  # Two tetrahedra that share one vertex: closed, but the vertex has two fans.
+  printf 'OFF\n7 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n' >a.off
+  printf '3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n3 0 4 5\n3 0 6 4\n3 4 6 5\n3 0 5 6\n' >>a.off
+  expect 6 check a.off --json
+  equal "boundary edges" "$(value out /boundary_edges)" 0
+  equal "vertices with two fans" "$(value out /nonmanifold_vertices)" 1
+}
+
+test_check_finds_self_intersections() {
+  # Two tetrahedra, the second shifted into the first. That is reported, not refused.
+  printf 'OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0.2 0.2 0.2\n1.2 0.2 0.2\n0.2 1.2 0.2\n0.2 0.2 1.2\n' >a.off
+  printf '3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n3 4 6 5\n3 4 5 7\n3 5 6 7\n3 4 7 6\n' >>a.off
+  expect 0 check a.off --json
+  [ "$(value out /self_intersections)" -gt 0 ] || die "none found"
+  expect 0 check a.off --json --no-self-intersections
+  equal "not counted" "$(value out /self_intersections)" null
+}
+
+test_info() {
+  { sphere 300; printf '0 0 1e3\n0 0 1e3\nnan 0 0\n'; } >cloud.xyz
+  expect 0 info cloud.xyz
+  grep -q '303 points' out || die "no count"
+  expect 0 info cloud.xyz --json
+  equal points "$(value out /points)" 303
+  equal distinct "$(value out /distinct)" 301
+  equal duplicates "$(value out /duplicates)" 1
+  equal nonfinite "$(value out /nonfinite)" 1
+  equal "largest z" "$(value out /bounds/max/2)" 1000.0
+  [ ! -s err ] || die "something on stderr"
+}
+
+test_compare_with_itself() {
+  sphere 1000 >cloud.xyz
+  expect 0 cloud.xyz -o mesh.ply
+  expect 0 compare mesh.ply mesh.ply --json --samples 5000
+  local key
+  for key in /hausdorff /to_reference/max /from_reference/max; do
+    awk -v d="$(value out $key)" 'BEGIN { exit !(d < 1e-6) }' || die "$key is not zero"
+  done
+  for key in /f_score /normal_consistency /volume_iou; do
+    awk -v d="$(value out $key)" 'BEGIN { exit !(d > 0.999 && d <= 1.000001) }' || die "$key is not one"
+  done
+}
+
+test_compare_of_two_spheres() {
+  sphere 3000 >a.xyz
+  sphere 3000 1.1 >b.xyz
+  expect 0 a.xyz -o a.ply
+  expect 0 b.xyz -o b.ply
+  expect 0 compare a.ply b.ply --json --samples 5000
+  # Concentric spheres of radii 1 and 1.1: 0.1 apart everywhere, volumes as 1 to 1.331.
+  awk -v d="$(value out /to_reference/mean)" 'BEGIN { exit !(d > 0.095 && d < 0.105) }' || die "not 0.1 apart"
+  awk -v d="$(value out /volume_iou)" 'BEGIN { exit !(d > 0.745 && d < 0.758) }' || die "volume IoU is not 1/1.331"
+}
+
+# big_endian FILE OFFSET: four bytes as a number.
+big_endian() {
+  od -A n -t u1 -j "$2" -N 4 "$1" | awk '{ print (($1 * 256 + $2) * 256 + $3) * 256 + $4 }'
+}
+
+test_render() {
+  tetrahedron >a.off
+  sphere 300 >cloud.xyz
+  local input
+  for input in a.off cloud.xyz; do
+    expect 0 render "$input" -o picture.png --width 161 --height 97
+    equal signature "$(od -A n -t x1 -N 8 picture.png | tr -d ' ')" 89504e470d0a1a0a
+    equal width "$(big_endian picture.png 16)" 161
+    equal height "$(big_endian picture.png 20)" 97
+    [ "$(wc -c <picture.png)" -gt 400 ] || die "the picture is empty"
+    rm picture.png
+  done
+  if [ -s out ] || [ -s err ]; then die "render says something"; fi
+}
+
+test_render_refuses_sizes() {
+  tetrahedron >a.off
+  local options
+  for options in "--width 0" "--height 0" "--width -5" "--zoom 0" "--up q"; do
+    # shellcheck disable=SC2086
+    expect_error 2 "" render a.off -o picture.png $options
+  done
+  expect_files a.off
+}
+
+test_demo_works_from_any_folder() {
+  mkdir "somewhere else"
+  cd "somewhere else"
+  expect 0 demo -o demo
+  [ ! -s err ] || die "something on stderr"
+  expect_files demo demo/teapot.ply demo/teapot.json demo/scan.png demo/teapot.png
+  expect 0 check demo/teapot.ply
+  value demo/teapot.json /mesh/genus >/dev/null || die "no report"
+}
+
+test_demo_refuses_a_file_as_folder() {
+  echo "in the way" >demo
+  expect_error 3 "demo" demo -o demo
+  equal "the file" "$(cat demo)" "in the way"
+}

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Point clouds whose surface is known, and short ways through the stages, for tests.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <eigencrust/stages.h>
+
+namespace eigencrust::clouds {
+
+/// Random numbers that are the same with every standard library.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  /// in [0, 1)
+  double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  double uniform(double low, double high) { return low + (high - low) * uniform(); }
+  std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(engine_() % n); }
+  Vec3 in_box(double half_side) {
+    return {uniform(-half_side, half_side), uniform(-half_side, half_side), uniform(-half_side, half_side)};
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+using Points = std::vector<Vec3>;
+
+inline PointCloud cloud_of(Points points) { return {std::move(points), {}, {}}; }
+
+inline Points joined(Points a, const Points& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// factor · p + shift for every point.
+inline Points moved(Points points, const Vec3& shift, double factor = 1) {
+  for (Vec3& p : points) p = factor * p + shift;
+  return points;
+}
+
+inline Points shuffled(Points points, std::uint64_t seed) {
+  Random random(seed);
+  for (std::size_t i = points.size(); i > 1; --i)
+    std::swap(points[i - 1], points[random.below(static_cast<std::uint32_t>(i))]);
+  return points;
+}
+
+inline Points random_box(std::size_t n, std::uint64_t seed, double half_side = 1) {
+  Random random(seed);
+  Points points;
+  for (std::size_t i = 0; i < n; ++i) points.push_back(random.in_box(half_side));
+  return points;
+}
+
+/// nx · ny · nz points with that spacing: every cell's eight corners lie on one sphere.
+inline Points lattice(unsigned nx, unsigned ny, unsigned nz, double spacing = 1) {
+  Points points;
+  for (unsigned i = 0; i < nx; ++i)
+    for (unsigned j = 0; j < ny; ++j)
+      for (unsigned k = 0; k < nz; ++k) points.push_back({i * spacing, j * spacing, k * spacing});
+  return points;
+}
+
+/// Surface of the cube [0, n]³ at the integer points: 6 n² + 2 of them.
+inline Points cube_surface(unsigned n) {
+  Points points;
+  for (const Vec3& p : lattice(n + 1, n + 1, n + 1))
+    if (p.x == 0 || p.y == 0 || p.z == 0 || p.x == n || p.y == n || p.z == n) points.push_back(p);
+  return points;
+}
+
+/// n points spread evenly over a sphere (Fibonacci lattice); spacing about 3.5 radius / √n.
+inline Points sphere(std::size_t n, double radius = 1, const Vec3& centre = {}) {
+  Points points;
+  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+  for (std::size_t i = 0; i < n; ++i) {
+    const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(n);
+    const double r = std::sqrt(1 - z * z), u = golden * static_cast<double>(i);
+    points.push_back(radius * Vec3{r * std::cos(u), r * std::sin(u), z} + centre);
+  }
+  return points;
+}
+
+/// Every coordinate moved by up to `size` either way.
+inline Points jittered(Points points, double size, std::uint64_t seed) {
+  Random random(seed);
+  for (Vec3& p : points) p = p + random.in_box(size);
+  return points;
+}
+
+/// Torus around the z axis, every second ring turned by half a step.
+inline Points torus(double major, double minor, unsigned around, unsigned across) {
+  Points points;
+  for (unsigned i = 0; i < around; ++i)
+    for (unsigned j = 0; j < across; ++j) {
+      const double u = 2 * std::numbers::pi * i / around;
+      const double v = 2 * std::numbers::pi * (j + 0.5 * (i % 2)) / across;
+      const double ring = major + minor * std::cos(v);
+      points.push_back({ring * std::cos(u), ring * std::sin(u), minor * std::sin(v)});
+    }
+  return points;
+}
+
+/// Tetrahedralization with what most stages ask for beside it.
+struct Prepared {
+  Tetrahedralization t;
+  VertexStars stars;
+  Poles poles;
+};
+inline Prepared prepare(const Points& points, unsigned threads = 1) {
+  const Threads team(threads);
+  Prepared p;
+  p.t = tetrahedralize(prepare_samples(points, team), team);
+  p.stars = vertex_stars(p.t, team);
+  p.poles = find_poles(p.t, p.stars, team);
+  return p;
+}
+
+inline Vec3 centroid(const Tetrahedralization& t, TetrahedronIndex i) {
+  Vec3 sum;
+  for (const SampleIndex s : t.tetrahedra[i]) sum = sum + 0.25 * t.positions[s];
+  return sum;
+}
+
+inline double volume(const Tetrahedralization& t, TetrahedronIndex i) {
+  const auto& [a, b, c, d] = t.tetrahedra[i];
+  const Vec3& o = t.positions[a];
+  return dot(cross(t.positions[b] - o, t.positions[c] - o), t.positions[d] - o) / 6;
+}
+
+/// Tetrahedra at the cube outside, each other one inside with probability `share`; values to match.
+inline FinalLabels random_labels(const Tetrahedralization& t, double share, std::uint64_t seed) {
+  Random random(seed);
+  FinalLabels result;
+  result.labels = Labels(t.tetrahedra.size(), Label::outside);
+  result.value = IndexedArray<TetrahedronIndex, float>(t.tetrahedra.size(), 1.0f);
+  for (std::uint32_t i = 0; i < t.tetrahedra.size(); ++i) {
+    const TetrahedronIndex index{i};
+    const double inside = random.uniform(), size = random.uniform(0.01, 1);
+    if (t.touches_cube(index)) continue;
+    result.labels[index] = inside < share ? Label::inside : Label::outside;
+    result.value[index] = static_cast<float>(inside < share ? -size : size);
+  }
+  return result;
+}
+
+/// The triangles as sorted lists of corner coordinates, turned so that the smallest corner is first:
+/// equal for meshes that differ only in the order of their rows.
+inline std::vector<std::array<Vec3, 3>> triangle_set(const TriangleMesh& mesh) {
+  std::vector<std::array<Vec3, 3>> set;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    std::array<Vec3, 3> corners{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    set.push_back(corners);
+  }
+  std::sort(set.begin(), set.end());
+  return set;
+}
+
+} // namespace eigencrust::clouds

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+
+#include <map>
+#include <set>
+
+#include "clouds.h"
+
+namespace eigencrust {
+namespace {
+
+using clouds::Points;
+using clouds::Prepared;
+using Pair = std::pair<std::uint32_t, std::uint32_t>; // poles, smaller first
+
+Labels known_of(const Prepared& p, const Points& inside = {}) {
+  return known_labels(p.t, {}, inside, {}, Threads(1));
+}
+
+double cosine(const Sphere& a, const Sphere& b) {
+  return (squared_norm(a.centre - b.centre) - a.radius * a.radius - b.radius * b.radius) / (2 * a.radius * b.radius);
+}
+
+/// The whole edge set of §3.1 from its definition, before anything is collapsed or left out.
+std::map<Pair, double> all_edges(const Prepared& p) {
+  std::map<Pair, double> edges;
+  const auto& of_sample = p.poles.of_sample.raw();
+  const auto& sphere = p.poles.sphere.raw();
+  std::set<Pair> delaunay_edges;
+  for (const auto& v : p.t.tetrahedra)
+    for (const SampleIndex a : v)
+      for (const SampleIndex b : v)
+        if (a < b && !p.t.is_corner(a) && !p.t.is_corner(b)) delaunay_edges.insert({a.value, b.value});
+  for (const auto& [s, other] : delaunay_edges)
+    for (const PoleIndex a : {of_sample[s].first, of_sample[s].second})
+      for (const PoleIndex b : {of_sample[other].first, of_sample[other].second}) {
+        if (!a.valid() || !b.valid() || a == b) continue;
+        const double c = cosine(sphere[a.value], sphere[b.value]);
+        if (c <= 1) edges[std::minmax(a.value, b.value)] = std::exp(4 - 4 * std::max(c, -1.0));
+      }
+  for (const PolePair& pair : of_sample) // pole pairs override
+    if (pair.second.valid()) {
+      const double c = cosine(sphere[pair.first.value], sphere[pair.second.value]);
+      edges[std::minmax(pair.first.value, pair.second.value)] = -std::exp(4 + 4 * std::clamp(c, -1.0, 1.0));
+    }
+  return edges;
+}
+
+struct Expected {
+  std::vector<std::uint32_t> pole;                 // of each node
+  std::map<Pair, double> edges;                    // between nodes
+  std::vector<std::map<std::uint32_t, double>> super; // node -> sum
+};
+
+Expected expected_graph(const Prepared& p, const Labels& known, const std::vector<std::uint8_t>& left_out,
+                        std::size_t supernodes) {
+  Expected e;
+  e.super.resize(supernodes);
+  std::map<std::uint32_t, std::uint32_t> node_of;
+  const auto label = [&](std::uint32_t pole) { return known[p.poles.tetrahedron.raw()[pole]]; };
+  for (std::uint32_t pole = 0; pole < p.poles.tetrahedron.size(); ++pole) {
+    const bool out = !left_out.empty() && left_out[p.poles.tetrahedron.raw()[pole].value];
+    if (label(pole) != Label::unlabelled || out) continue;
+    node_of[pole] = static_cast<std::uint32_t>(e.pole.size());
+    e.pole.push_back(pole);
+  }
+  for (const auto& [ends, w] : all_edges(p)) {
+    for (const auto& [a, b] : {ends, Pair{ends.second, ends.first}}) {
+      if (!node_of.count(a)) continue;
+      if (label(b) == Label::outside) e.super[0][node_of[a]] += w;
+      if (label(b) == Label::inside) e.super[1][node_of[a]] += w;
+      if (node_of.count(b)) e.edges[{node_of[a], node_of[b]}] = w;
+    }
+  }
+  return e;
+}
+
+void expect_equal(const PoleGraph& g, const Expected& e) {
+  ASSERT_EQ(g.pole.size(), e.pole.size());
+  for (std::uint32_t i = 0; i < e.pole.size(); ++i) EXPECT_EQ(g.pole.raw()[i].value, e.pole[i]);
+  ASSERT_EQ(g.graph.column.size(), e.edges.size());
+  ASSERT_EQ(g.graph.node_count(), e.pole.size());
+  for (std::uint32_t i = 0; i < g.graph.node_count(); ++i)
+    for (std::uint64_t k = g.graph.row_begin[i]; k < g.graph.row_begin[i + 1]; ++k) {
+      const std::uint32_t j = g.graph.column[k];
+      if (k > g.graph.row_begin[i]) { EXPECT_LT(g.graph.column[k - 1], j); }
+      const auto at = e.edges.find({i, j});
+      ASSERT_NE(at, e.edges.end()) << i << " " << j;
+      EXPECT_NEAR(g.graph.weight[k] / at->second, 1, 1e-5);
+    }
+  ASSERT_EQ(g.graph.supernodes.size(), e.super.size());
+  for (std::size_t s = 0; s < e.super.size(); ++s)
+    for (std::uint32_t i = 0; i < g.graph.node_count(); ++i) {
+      const auto at = e.super[s].find(i);
+      const double sum = at == e.super[s].end() ? 0.0 : at->second;
+      EXPECT_NEAR(g.graph.supernodes[s].weight[i], sum, 1e-5 * (1 + std::fabs(sum)) + 1e-2) << i;
+    }
+}
+
+TEST(PoleGraph, EqualsTheEdgeSetOfTheDefinition) {
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+    const Prepared p = clouds::prepare(clouds::random_box(30 + 10 * seed, seed));
+    const Labels known = known_of(p);
+    expect_equal(pole_graph(p.t, p.stars, p.poles, known, {}, Threads(1)), expected_graph(p, known, {}, 1));
+  }
+}
+
+TEST(PoleGraph, OnASurfaceTheSupernodeRepelsTheInside) {
+  const Prepared p = clouds::prepare(clouds::jittered(clouds::sphere(60), 0.02, 5));
+  const Labels known = known_of(p);
+  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, Threads(1));
+  expect_equal(g, expected_graph(p, known, {}, 1));
+  double smallest = 0;
+  for (const float w : g.graph.supernodes[0].weight) smallest = std::min(smallest, static_cast<double>(w));
+  EXPECT_LT(smallest, 0);
+}
+
+TEST(PoleGraph, LeftOutPolesAreNoNodes) {
+  const Prepared p = clouds::prepare(clouds::random_box(50, 6));
+  const Labels known = known_of(p);
+  clouds::Random random(7);
+  std::vector<std::uint8_t> left_out(p.t.tetrahedra.size());
+  for (auto& flag : left_out) flag = random.uniform() < 0.3;
+  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, left_out, Threads(1));
+  expect_equal(g, expected_graph(p, known, left_out, 1));
+  const PoleGraph none = pole_graph(p.t, p.stars, p.poles, known, std::vector<std::uint8_t>(left_out.size(), 1),
+                                    Threads(1));
+  EXPECT_EQ(none.graph.node_count(), 0u);
+}
+
+TEST(PoleGraph, InsidePointsMakeASecondSupernode) {
+  const Prepared p = clouds::prepare(clouds::random_box(50, 8));
+  // The middle of the first pole away from the cube: that pole is no node any more.
+  PoleIndex pole;
+  for (std::uint32_t i = 0; i < p.poles.tetrahedron.size() && !pole.valid(); ++i)
+    if (!p.t.touches_cube(p.poles.tetrahedron.raw()[i])) pole.value = i;
+  const Vec3 middle = clouds::centroid(p.t, p.poles.tetrahedron[pole]) + p.t.origin;
+  const Labels known = known_of(p, {middle});
+  ASSERT_EQ(known[p.poles.tetrahedron[pole]], Label::inside);
+  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, Threads(1));
+  expect_equal(g, expected_graph(p, known, {}, 2));
+  double sum = 0;
+  for (const auto& super : g.graph.supernodes)
+    for (const float w : super.weight) sum += std::fabs(static_cast<double>(w));
+  EXPECT_NEAR(g.graph.supernode_weight[0][1], -sum, 1e-6 * sum); // one large negative edge
+  EXPECT_EQ(g.graph.supernode_weight[0][1], g.graph.supernode_weight[1][0]);
+  EXPECT_EQ(g.graph.supernode_weight[0][0], 0);
+}
+
+TEST(PoleGraph, WeightsStayWithinTheirRanges) {
+  // A lattice has poles shared by many samples and spheres that touch: cosines at their limits.
+  for (const Points& points : {clouds::lattice(4, 4, 4), clouds::sphere(200), clouds::random_box(200, 9)}) {
+    const Prepared p = clouds::prepare(points);
+    const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known_of(p), {}, Threads(1));
+    for (const float w : g.graph.weight) {
+      const double size = std::fabs(static_cast<double>(w));
+      EXPECT_LE(size, std::exp(8.0) * (1 + 1e-6));
+      EXPECT_GE(size, (w < 0 ? std::exp(4.0) : 1.0) * (1 - 1e-6));
+    }
+  }
+}
+
+TEST(PoleGraph, IsSymmetricAndTheSameForAnyThreads) {
+  const Points points = clouds::random_box(1500, 10); // several blocks of nodes
+  const Prepared p = clouds::prepare(points);
+  const Labels known = known_of(p);
+  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, Threads(1));
+  std::map<Pair, float> entries;
+  for (std::uint32_t i = 0; i < g.graph.node_count(); ++i)
+    for (std::uint64_t k = g.graph.row_begin[i]; k < g.graph.row_begin[i + 1]; ++k)
+      entries[{i, g.graph.column[k]}] = g.graph.weight[k];
+  for (const auto& [ends, w] : entries) {
+    EXPECT_NE(ends.first, ends.second);
+    EXPECT_EQ(w, entries.at({ends.second, ends.first}));
+  }
+  for (const unsigned threads : {2u, 3u}) {
+    const PoleGraph other = pole_graph(p.t, p.stars, p.poles, known, {}, Threads(threads));
+    EXPECT_EQ(other.graph.row_begin, g.graph.row_begin);
+    EXPECT_EQ(other.graph.column, g.graph.column);
+    EXPECT_EQ(other.graph.weight, g.graph.weight);
+    EXPECT_EQ(other.graph.supernodes[0].weight, g.graph.supernodes[0].weight);
+  }
+}
+
+} // namespace
+} // namespace eigencrust
