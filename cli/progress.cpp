@@ -21,7 +21,7 @@ struct StageShare {
   std::string_view name;
   double share;
 };
-constexpr std::array<StageShare, 16> shares{{{"samples", 4},
+constexpr std::array<StageShare, 17> shares{{{"samples", 4},
                                              {"delaunay", 24},
                                              {"stars", 1},
                                              {"poles", 4},
@@ -33,6 +33,7 @@ constexpr std::array<StageShare, 16> shares{{{"samples", 4},
                                              {"tetrahedron_graph", 2},
                                              {"partition_tetrahedra", 20},
                                              {"manifold", 4},
+                                             {"recover", 1},
                                              {"surface", 1},
                                              {"components", 2},
                                              {"attributes", 1},

@@ -17,7 +17,7 @@ struct Request {
   bool manifold = Options{}.manifold; // on in both presets
   std::optional<std::uint32_t> smooth;
   std::optional<double> tolerance;
-  std::optional<double> min_agreement, pole_ties;
+  std::optional<double> min_agreement, pole_ties, recover_share;
   std::optional<std::uint32_t> max_steps;
   std::vector<std::string> outside_points, inside_points;
   unsigned threads = Options{}.threads;
@@ -50,6 +50,10 @@ void add_method_options(CLI::App& app, Request& r) {
   app.add_option("--pole-ties", r.pole_ties,
                  "Weight of the ties between unlabelled tetrahedra and their samples' poles" +
                      defaults(rounded(robust.pole_ties), rounded(paper.pole_ties)));
+  app.add_option(
+      "--recover-share", r.recover_share,
+      "Samples that the surface passes by closely are taken in if they are at most this share of it; 0 to 1" +
+          defaults(rounded(robust.recover_share), rounded(paper.recover_share)));
   app.add_option("--tolerance", r.tolerance,
                  "Residual at which an eigenvector counts as converged; given, signs alone do not stop it");
   app.add_option("--max-steps", r.max_steps,
@@ -84,6 +88,7 @@ Options effective_options(const Request& r) {
     o.solver.stop_on_stable_signs = false;
   }
   if (r.min_agreement) o.min_agreement = *r.min_agreement;
+  if (r.recover_share) o.recover_share = *r.recover_share;
   if (r.pole_ties) o.pole_ties = *r.pole_ties;
   if (r.max_steps) o.solver.max_steps = *r.max_steps;
   o.manifold = r.manifold;

@@ -82,6 +82,7 @@ Options Options::of(Preset preset) {
     options.global_sign = GlobalSign::supernode;
     options.min_agreement = 0;
     options.pole_ties = 0;
+    options.recover_share = 0;
     options.manifold_rule = ManifoldRule::paper;
     options.components.kind = KeepComponents::Kind::all;
   }
@@ -185,6 +186,8 @@ void check_options(const Options& options) {
   require(options.min_agreement >= 0 && options.min_agreement <= 1, "the least agreement is not in [0, 1]", "use 0.8");
   require(options.pole_ties >= 0 && std::isfinite(options.pole_ties), "the weight of the pole ties is negative",
           "use 0.1");
+  require(options.recover_share >= 0 && options.recover_share <= 1, "the share of samples to recover is not in [0, 1]",
+          "use 0.04");
   require(options.smooth <= 1000, "more than 1000 smoothing steps", "use fewer");
   require(options.threads <= 1024, "more than 1024 threads", "use fewer");
   for (const auto* points : {&options.outside_points, &options.inside_points})

@@ -84,6 +84,12 @@ TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, co
     mesh.vertices.push_back(moved ? surface.mesh.vertices[v] + t.origin : cloud.points[source[v]]);
   for (const Attribute& attribute : cloud.attributes) mesh.vertex_attributes.push_back(gather(attribute, source));
   mesh.vertex_attributes.push_back(make_attribute("source_index", source));
+  if (!cloud.scan_index.empty()) {
+    std::vector<std::uint32_t> scan;
+    scan.reserve(source.size());
+    for (const std::uint32_t row : source) scan.push_back(cloud.scan_index[row]);
+    mesh.vertex_attributes.push_back(make_attribute("scan_index", scan));
+  }
   return mesh;
 }
 

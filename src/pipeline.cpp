@@ -80,6 +80,9 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
     run.count("vertices_repaired", static_cast<double>(counts.vertices));
     run.count("tetrahedra_relabelled", static_cast<double>(counts.relabelled));
   }
+  const auto recovered =
+      run.stage("recover", [&] { return recover_samples(t, stars, known, options.recover_share, labels.labels); });
+  run.count("samples", static_cast<double>(recovered));
   Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels); });
   report.dropped_components =
       run.stage("components", [&] { return filter_components(surface, options.components, t, stars); });

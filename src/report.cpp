@@ -56,6 +56,7 @@ Json json_of(const Options& o) {
           {"global_sign", to_string(o.global_sign)},
           {"min_agreement", o.min_agreement},
           {"pole_ties", o.pole_ties},
+          {"recover_share", o.recover_share},
           {"manifold", o.manifold},
           {"manifold_rule", to_string(o.manifold_rule)},
           {"components", to_string(o.components)},

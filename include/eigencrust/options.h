@@ -100,6 +100,9 @@ struct Options {
   /// Make the surface a manifold by relabelling (§3.5).
   bool manifold = true;
   ManifoldRule manifold_rule = ManifoldRule::cheapest;
+  /// Samples that the surface passes by closely are taken in when they are at most this share of those on
+  /// it (more are noise); in [0, 1], 0 as in the paper: none. docs/decisions/0007.
+  double recover_share = 0.04;
   KeepComponents components;
   /// Smoothing steps (§3.6); 0: none. Vertices then leave the samples.
   std::uint32_t smooth = 0;

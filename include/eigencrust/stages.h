@@ -115,6 +115,13 @@ struct ManifoldCounts {
 ManifoldCounts make_manifold(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
                              ManifoldRule rule, FinalLabels& labels, const Checkpoint& checkpoint = {});
 
+/// Takes samples into the surface that it passes by closely: the tetrahedron between such a sample and a
+/// surface triangle changes sides, which neither opens nor joins anything. Only when such samples are at
+/// most `max_share` of those on the surface; more are noise (not in the paper).
+/// \return how many
+std::uint64_t recover_samples(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
+                              const Labels& known, double max_share, Labels& labels);
+
 /// §3: the faces between inside and outside, counter-clockwise seen from outside; sample_of[v] is the
 /// sample behind vertex v, coordinates are still relative to the origin.
 struct Surface {
