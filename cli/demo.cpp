@@ -25,9 +25,8 @@ fs::path bundled_scan() {
 
 int demo_verb(const Arguments& arguments) {
   std::string folder = "eigencrust-demo";
-  CLI::App app("Reconstructs the bundled teapot scan: mesh, report and pictures of both.", "eigencrust demo");
-  app.add_option("-o,--output", folder, "Folder for teapot.ply, teapot.json, scan.png and teapot.png")
-      ->capture_default_str();
+  CLI::App app("Reconstructs the bundled teapot scan: mesh, report and a picture of both.", "eigencrust demo");
+  app.add_option("-o,--output", folder, "Folder for teapot.ply, teapot.json and teapot.png")->capture_default_str();
   if (const Parsed parsed = parse(app, arguments); parsed.done) return parsed.status;
   const std::string scan = bundled_scan().string();
   std::error_code error;
@@ -49,16 +48,10 @@ int demo_verb(const Arguments& arguments) {
     const bool named = words.front() == "check" || words.front() == "render";
     return verb({{words.begin() + (named ? 1 : 0), words.end()}, command});
   };
-  int status = call(reconstruct_verb, {scan, "-o", mesh, "--report", report});
+  const int status = call(reconstruct_verb, {scan, "-o", mesh, "--report", report});
   if (status != 0) return status;
-  const std::vector<std::string> camera{"--up", "z", "--azimuth", "-60", "--elevation", "25"};
-  for (const auto& [input, picture] : {std::pair{scan, "scan.png"}, std::pair{mesh, "teapot.png"}}) {
-    std::vector<std::string> words{"render", input, "-o", (fs::path(folder) / picture).string()};
-    words.insert(words.end(), camera.begin(), camera.end());
-    status = call(render_verb, words);
-    if (status != 0) return status;
-  }
-  return 0;
+  return call(render_verb, {"render", scan, mesh, "-o", (fs::path(folder) / "teapot.png").string(), "--width", "800",
+                            "--height", "600", "--up", "z", "--azimuth", "-60", "--point-size", "1.5"});
 }
 
 } // namespace eigencrust::cli

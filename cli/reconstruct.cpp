@@ -116,11 +116,18 @@ void check_outputs(const Request& r) {
       throw Error(ErrorKind::usage, path, "the folder " + folder.string() + " does not exist", "create it first");
     if (fs::is_directory(path)) throw Error(ErrorKind::usage, path, "this is a folder", "name a file");
   }
-  for (const std::string& input : r.input.paths) {
-    std::error_code ignored;
-    if (fs::equivalent(input, r.output, ignored))
-      throw Error(ErrorKind::usage, r.output, "the output would overwrite an input", "choose another name");
-  }
+  std::error_code ignored;
+  std::vector<std::string> inputs = r.input.paths;
+  inputs.push_back(r.input.scan_index);
+  for (const std::string& path : {r.output, r.report})
+    for (const std::string& input : inputs)
+      if (fs::equivalent(input, path, ignored))
+        throw Error(ErrorKind::usage, path, "the output would overwrite an input", "choose another name");
+  const auto place = [&](const std::string& path) {
+    return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+  };
+  if (!r.report.empty() && place(r.output) == place(r.report))
+    throw Error(ErrorKind::usage, r.report, "mesh and report would be the same file", "choose another name");
   if (!r.dump_stages.empty() && !fs::is_directory(r.dump_stages) && !fs::create_directories(r.dump_stages))
     throw Error(ErrorKind::usage, r.dump_stages, "the folder cannot be created", "choose another one");
 }

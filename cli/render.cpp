@@ -24,12 +24,13 @@ TriangleMesh read_anything(const std::string& path, bool as_points) {
 } // namespace
 
 int render_verb(const Arguments& arguments) {
-  std::string input, output, up = "y", clip_normal, clip_point;
+  std::vector<std::string> inputs;
+  std::string output, up = "y", clip_normal, clip_point;
   bool as_points = false, no_colors = false;
   RenderOptions options;
   CLI::App app("A picture of a mesh or a cloud without a display. Back faces are red, so that inside-out is seen.",
                "eigencrust render");
-  app.add_option("MESH", input, "Mesh or point cloud")->required();
+  app.add_option("MESH", inputs, "Mesh or point cloud; several are put side by side")->required();
   app.add_option("-o,--output", output, "PNG to write")->required();
   app.add_option("--width", options.width, "Pixels")->capture_default_str();
   app.add_option("--height", options.height, "Pixels")->capture_default_str();
@@ -58,7 +59,9 @@ int render_verb(const Arguments& arguments) {
                  [](unsigned char c) { return std::tolower(c); });
   if (extension != ".png")
     throw Error(ErrorKind::usage, output, "pictures are written as PNG only", "end the name in .png");
-  write_png(output, render(read_anything(input, as_points), options));
+  std::vector<Image> pictures;
+  for (const std::string& input : inputs) pictures.push_back(render(read_anything(input, as_points), options));
+  write_png(output, beside(pictures));
   return 0;
 }
 

@@ -7,6 +7,7 @@
 #include "output.h"
 #include "parallel/threads.h"
 #include "run.h"
+#include "snapshots.h"
 
 namespace eigencrust {
 
@@ -29,7 +30,7 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   describe_input(cloud, samples, report);
 
   // §3: S+ = samples and cube corners, T = Delaunay(S+), poles
-  const Tetrahedralization t = run.stage("delaunay", [&] { return tetrahedralize(std::move(samples), threads); });
+  Tetrahedralization t = run.stage("delaunay", [&] { return tetrahedralize(std::move(samples), threads); });
   run.count("tetrahedra", t.tetrahedra.size());
   const VertexStars stars = run.stage("stars", [&] { return vertex_stars(t, threads); });
   const Poles poles = run.stage("poles", [&] { return find_poles(t, stars, threads); });
@@ -57,6 +58,7 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
     return label_poles(t, poles, g, first, component, known, options.global_sign, options.min_agreement, threads);
   });
   describe_pole_labels(pole_labels, run);
+  run.product("poles", [&] { return snapshot_of_poles(t, poles, g, first, pole_labels.labels); });
   if (options.questionable == Questionable::after) // §3.3
     run.count("labels_removed", static_cast<double>(unlabel_questionable(questionable, known, pole_labels.labels)));
 
@@ -69,6 +71,7 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   describe_partition("tetrahedra", h.graph, second, run, report);
   FinalLabels labels =
       run.stage("label_tetrahedra", [&] { return label_tetrahedra(h, second, std::move(pole_labels.labels)); });
+  run.product("tetrahedra", [&] { return snapshot_of_tetrahedra(t, labels); });
   if (labels.supernodes_agree)
     run.warn("the second eigenvector puts inside and outside on the same side; use --second-stage harmonic");
 
@@ -84,6 +87,7 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
       run.stage("recover", [&] { return recover_samples(t, stars, known, options.recover_share, labels.labels); });
   run.count("samples", static_cast<double>(recovered));
   Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels); });
+  run.product("surface", [&] { return snapshot_of_surface(t, surface); });
   report.dropped_components =
       run.stage("components", [&] { return filter_components(surface, options.components, t, stars); });
   require_surface(surface);
@@ -93,7 +97,7 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   result.mesh = run.stage("attributes", [&] { return finish_mesh(surface, t, cloud, options.smooth > 0); });
   report.mesh = run.stage("validate", [&] { return validate(result.mesh, {.threads = options.threads}); });
   report.broken_guarantees = broken_guarantees(report.mesh, options);
-  result.tetrahedralization = t;
+  result.tetrahedralization = std::move(t);
   result.labels = std::move(labels.labels);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   report.peak_memory_bytes = peak_memory_bytes();

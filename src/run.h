@@ -30,6 +30,12 @@ class Run {
   void count(const std::string& what, double value) { report_.stages.back().counts.emplace_back(what, value); }
   void warn(std::string text) { report_.warnings.push_back(std::move(text)); }
 
+  /// Hands the last stage's product to an observer that wants it; made only then.
+  template <class Make>
+  void product(const std::string& name, Make&& make) {
+    if (observer_.wants_products()) observer_.product(name, make());
+  }
+
   /// For a stage's inner loop: passes progress on and throws when cancelled.
   Checkpoint checkpoint() {
     return [this, stage = report_.stages.back().name](double fraction) {

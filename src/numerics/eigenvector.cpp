@@ -45,6 +45,12 @@ class LobpcgLevel {
         mass_(hierarchy.levels()[level].mass),
         threads_(threads) {
     x_.v = std::move(start);
+    // Where every edge cancels on the way down, nothing comes back up: begin anywhere but at zero, which
+    // would pass for a perfect eigenvector.
+    if (!scale_to_unit(x_.v)) {
+      for (std::size_t i = 0; i < x_.v.size(); ++i)
+        x_.v[i] = mass_[i] > 0 ? std::remainder(static_cast<double>(i + 1) * 0.6180339887498949, 1.0) : 0.0;
+    }
     multiply(matrix_, x_.v, x_.mv, threads_);
     normalize(x_);
     update_residual();

@@ -12,7 +12,7 @@ namespace {
 // Area of the three new triangles over that of the old one, minus one: 30 is a height of about 8 edges.
 constexpr double max_growth = 30;
 // An outlier is lonely: its nearest sample is farther away than the surface's samples are from each other.
-constexpr double max_loneliness = 2;
+constexpr double max_loneliness = 1.5;
 
 class Recovery {
  public:
@@ -40,7 +40,7 @@ class Recovery {
       const TetrahedronIndex across = t_.neighbours[tetrahedron][k];
       if (!across.valid() || labels_[across] == side) continue;
       const double growth = growth_of(v, k);
-      if (growth < least && alone <= max_loneliness * longest_edge_opposite(v, k)) {
+      if (growth < least && alone <= max_loneliness * spacing_at_face(v, k)) {
         least = growth;
         best = tetrahedron;
       }
@@ -61,10 +61,11 @@ class Recovery {
     return nearest;
   }
 
-  double longest_edge_opposite(const std::array<SampleIndex, 4>& v, std::size_t apex) const {
-    const Vec3 &a = t_.positions[v[(apex + 1) % 4]], &b = t_.positions[v[(apex + 2) % 4]],
-               &c = t_.positions[v[(apex + 3) % 4]];
-    return std::max({distance(a, b), distance(b, c), distance(c, a)});
+  /// The largest distance from a vertex of the face opposite `apex` to the sample nearest to it.
+  double spacing_at_face(const std::array<SampleIndex, 4>& v, std::size_t apex) const {
+    double spacing = 0;
+    for (std::size_t k = 1; k < 4; ++k) spacing = std::max(spacing, nearest_neighbour(v[(apex + k) % 4]));
+    return spacing;
   }
 
   double growth_of(const std::array<SampleIndex, 4>& v, std::size_t apex) const {

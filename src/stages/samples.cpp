@@ -84,11 +84,16 @@ double median_spacing(const Samples& samples, std::span<const Vec3> points, std:
   if (scan_index.empty()) {
     nearest = nearest_other(samples.positions.raw(), threads);
   } else {
-    std::uint32_t scans = 0;
-    for (const std::uint32_t scan : scan_index) scans = std::max(scans, scan + 1);
-    std::vector<std::vector<Vec3>> of_scan(scans);
-    for (std::size_t row = 0; row < points.size(); ++row)
-      if (is_finite(points[row])) of_scan[scan_index[row]].push_back(points[row] - samples.origin);
+    // Scan numbers are names: however large, they ask for no memory.
+    std::vector<std::uint32_t> scans(scan_index.begin(), scan_index.end());
+    std::sort(scans.begin(), scans.end());
+    scans.erase(std::unique(scans.begin(), scans.end()), scans.end());
+    std::vector<std::vector<Vec3>> of_scan(scans.size());
+    for (std::size_t row = 0; row < points.size(); ++row) {
+      if (!is_finite(points[row])) continue;
+      const auto scan = std::lower_bound(scans.begin(), scans.end(), scan_index[row]) - scans.begin();
+      of_scan[static_cast<std::size_t>(scan)].push_back(points[row] - samples.origin);
+    }
     for (std::vector<Vec3>& scan : of_scan) {
       std::sort(scan.begin(), scan.end());
       scan.erase(std::unique(scan.begin(), scan.end()), scan.end());

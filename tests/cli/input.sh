@@ -45,9 +45,9 @@ test_too_few_points() {
 
 test_coplanar_and_collinear() {
   awk 'BEGIN { for (i = 0; i < 400; ++i) print i % 20, int(i / 20), 3 }' >plane.xyz
-  expect_error 3 "plane" plane.xyz -o mesh.ply
+  expect_error 3 "coplanar" plane.xyz -o mesh.ply
   awk 'BEGIN { for (i = 0; i < 400; ++i) print i, 2 * i, 3 * i }' >line.xyz
-  expect_error 3 "line" line.xyz -o mesh.ply
+  expect_error 3 "collinear" line.xyz -o mesh.ply
   awk 'BEGIN { for (i = 0; i < 400; ++i) print 1, 2, 3 }' >same.xyz
   expect_error 3 "" same.xyz -o mesh.ply
   expect_files plane.xyz line.xyz same.xyz
@@ -69,9 +69,9 @@ test_duplicates_are_merged() {
 }
 
 test_binary_garbage() {
-  # The bytes of the command itself serve; no text and no mesh.
+  # Bytes of all values. An STL of 100,000 of them would have to hold 1998.32 triangles.
   local name
-  head -c 100000 "$program" >garbage
+  awk 'BEGIN { for (i = 0; i < 100000; ++i) printf "%c", (i * i * 7 + int(i / 11)) % 256 }' >garbage
   for name in cloud.xyz cloud.ply cloud.csv cloud.pts cloud.off cloud.obj cloud.stl cloud.dat; do
     cp garbage "$name"
     expect_error 3 "$name" "$name" -o mesh.ply

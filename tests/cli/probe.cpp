@@ -40,7 +40,7 @@ int print_rows(const std::string& path) {
     const eigencrust::Vec3& p = mesh.vertices[i];
     std::printf("%.9g %.9g %.9g", p.x, p.y, p.z);
     for (const auto& attribute : mesh.vertex_attributes)
-      std::printf(" %.9g", eigencrust::attribute_value(attribute, i));
+      std::printf(" %.17g", eigencrust::attribute_value(attribute, i));
     std::printf("\n");
   }
   return 0;

@@ -28,7 +28,7 @@ test_version() {
 }
 
 test_unknown_option() {
-  sphere 100 >cloud.xyz
+  sphere 300 >cloud.xyz
   expect_error 2 --frobnicate cloud.xyz -o mesh.ply --frobnicate
   expect_files cloud.xyz
 }
@@ -40,7 +40,7 @@ test_unknown_verb() {
 }
 
 test_missing_output() {
-  sphere 100 >cloud.xyz
+  sphere 300 >cloud.xyz
   expect_error 2 output reconstruct cloud.xyz
   expect_error 2 output cloud.xyz
   expect_error 2 output render cloud.xyz
@@ -55,7 +55,7 @@ test_missing_input() {
 }
 
 test_values_that_make_no_sense() {
-  sphere 100 >cloud.xyz
+  sphere 300 >cloud.xyz
   local options
   for options in "--preset none" "--grid-spacing -1" "--grid-spacing 0%" "--grid-spacing 1x" "--components 0" \
     "--questionable later" "--second-stage third" "--eigensolver magic" "--smoothing none" "--smooth -1" \
@@ -69,21 +69,21 @@ test_values_that_make_no_sense() {
 }
 
 test_output_folder_is_missing() {
-  sphere 100 >cloud.xyz
+  sphere 300 >cloud.xyz
   expect_error 2 "nowhere" cloud.xyz -o nowhere/mesh.ply
   expect_error 2 "nowhere" cloud.xyz -o mesh.ply --report nowhere/report.json
   expect_files cloud.xyz
 }
 
 test_output_is_a_folder() {
-  sphere 100 >cloud.xyz
+  sphere 300 >cloud.xyz
   mkdir mesh.ply
   expect_error 2 "mesh.ply" cloud.xyz -o mesh.ply
   expect_files cloud.xyz mesh.ply
 }
 
 test_output_is_an_input() {
-  sphere 100 >cloud.xyz
+  sphere 300 >cloud.xyz
   expect 0 cloud.xyz -o cloud.ply
   cp cloud.ply copy
   ln -s cloud.ply link.ply
@@ -95,7 +95,7 @@ test_output_is_an_input() {
 }
 
 test_report_is_an_input_or_the_mesh() {
-  sphere 100 >cloud.xyz
+  sphere 300 >cloud.xyz
   cp cloud.xyz copy
   expect_error 2 "cloud.xyz" cloud.xyz -o mesh.ply --report cloud.xyz
   same cloud.xyz copy
@@ -105,7 +105,7 @@ test_report_is_an_input_or_the_mesh() {
 }
 
 test_output_extension() {
-  sphere 100 >cloud.xyz
+  sphere 300 >cloud.xyz
   local name
   for name in mesh.docx mesh mesh.xyz ply .ply; do
     expect_error 2 "$name" cloud.xyz -o "$name"
@@ -116,8 +116,8 @@ test_output_extension() {
 }
 
 test_scan_index_needs_one_input() {
-  sphere 100 >a.xyz
-  sphere 100 1 5 >b.xyz
+  sphere 300 >a.xyz
+  sphere 300 1 5 >b.xyz
   printf '0\n' >scans.txt
   expect_error 2 "--scan-index" a.xyz b.xyz -o mesh.ply --scan-index scans.txt
 }

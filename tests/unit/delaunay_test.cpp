@@ -33,7 +33,9 @@ void expect_canonical(const Tetrahedralization& t) {
     ASSERT_LT(v[0], v[1]);
     ASSERT_LT(v[1], v[2]);
     ASSERT_LT(v[1], v[3]);
-    if (i > 0) { ASSERT_LT(t.tetrahedra.raw()[i - 1], v); }
+    if (i > 0) {
+      ASSERT_LT(t.tetrahedra.raw()[i - 1], v);
+    }
     const auto p = [&](std::size_t k) {
       const Vec3& q = t.positions[v[k]];
       return Kernel::Point_3(q.x, q.y, q.z);
@@ -68,8 +70,7 @@ void expect_empty_spheres(const Tetrahedralization& t) {
   for (const Vec3& v : t.positions) p.emplace_back(v.x, v.y, v.z);
   for (const auto& [a, b, c, d] : t.tetrahedra)
     for (const auto& q : p)
-      ASSERT_NE(CGAL::side_of_bounded_sphere(p[a.value], p[b.value], p[c.value], p[d.value], q),
-                CGAL::ON_BOUNDED_SIDE);
+      ASSERT_NE(CGAL::side_of_bounded_sphere(p[a.value], p[b.value], p[c.value], p[d.value], q), CGAL::ON_BOUNDED_SIDE);
 }
 
 void expect_delaunay(const Points& points) {

@@ -99,8 +99,8 @@ TEST(KnownLabels, ContradictionsAreRefused) {
   const Prepared p = clouds::prepare(clouds::random_box(60, 3));
   const Vec3 middle = clouds::centroid(p.t, interior_tetrahedron(p.t)) + p.t.origin;
   EXPECT_EQ(kind_of(p.t, {middle}, {middle}), ErrorKind::usage);
-  EXPECT_EQ(kind_of(p.t, {}, {{5, 5, 5}}), ErrorKind::usage);          // between the samples and the cube
-  EXPECT_EQ(kind_of(p.t, {}, {{1e6, 0, 0}}), ErrorKind::usage);        // beyond the cube
+  EXPECT_EQ(kind_of(p.t, {}, {{5, 5, 5}}), ErrorKind::usage);         // between the samples and the cube
+  EXPECT_EQ(kind_of(p.t, {}, {{1e6, 0, 0}}), ErrorKind::usage);       // beyond the cube
   EXPECT_EQ(kind_of(p.t, {{1e6, 0, 0}, {5, 5, 5}}, {}), ErrorKind{}); // outside it is, and says nothing new
 }
 

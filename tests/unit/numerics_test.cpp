@@ -16,9 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using graphs::Planted;
 
-VectorXd to_eigen(const Vector& x) {
-  return Eigen::Map<const VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
-}
+VectorXd to_eigen(const Vector& x) { return Eigen::Map<const VectorXd>(x.data(), static_cast<Eigen::Index>(x.size())); }
 
 Vector random_vector(std::size_t n, std::uint64_t seed) {
   clouds::Random random(seed);
@@ -162,7 +160,9 @@ TEST(Galerkin, EqualsTheDenseTripleProduct) {
   for (std::uint32_t g = 0; g < a.count; ++g)
     for (std::uint64_t e = coarse.row_begin[g]; e < coarse.row_begin[g + 1]; ++e) {
       EXPECT_NE(coarse.column[e], g);
-      if (e > coarse.row_begin[g]) { EXPECT_LT(coarse.column[e - 1], coarse.column[e]); }
+      if (e > coarse.row_begin[g]) {
+        EXPECT_LT(coarse.column[e - 1], coarse.column[e]);
+      }
     }
 }
 
@@ -238,7 +238,9 @@ TEST(SmallestEigenvector, OfAConsistentGraphHasItsExactSigns) {
       EXPECT_EQ(result.status, SolverStatus::consistent);
       EXPECT_LT(std::fabs(result.eigenvalue), 1e-10);
       EXPECT_EQ(planted_share(p, result.x), 1.0);
-      if (supernode) { EXPECT_GT(result.x[n] * result.x[0] * p.side[0], 0); }
+      if (supernode) {
+        EXPECT_GT(result.x[n] * result.x[0] * p.side[0], 0);
+      }
     }
 }
 
@@ -246,8 +248,7 @@ TEST(SmallestEigenvector, LanczosAndMultigridAgree) {
   const Planted p = graphs::planted(1500, 8, 0.05, true, 11);
   const Threads threads(2);
   const BorderedMatrix m = signed_laplacian(p.graph, threads);
-  const IterationResult lanczos =
-      smallest_eigenvector_lanczos(m, full_diagonal(m), to_residual(1e-9, 1000), threads);
+  const IterationResult lanczos = smallest_eigenvector_lanczos(m, full_diagonal(m), to_residual(1e-9, 1000), threads);
   const IterationResult multigrid = smallest_eigenvector(hierarchy_of(p.graph, threads), to_residual(1e-8), threads);
   EXPECT_EQ(lanczos.status, SolverStatus::converged);
   EXPECT_NEAR(lanczos.eigenvalue, multigrid.eigenvalue, 1e-9);
@@ -274,8 +275,8 @@ TEST(SmallestEigenvector, OfPathsAndStarsThatHaveNoCycles) {
   path.side = star.side = {1};
   for (std::uint32_t i = 1; i < n; ++i) {
     const int sign = i % 3 == 0 ? -1 : 1;
-    along[{i - 1, i}] = sign * (1 + i % 7);
-    spokes[{0, i}] = sign * (1 + i % 7);
+    along[{i - 1, i}] = sign * (1.0 + i % 7);
+    spokes[{0, i}] = sign * (1.0 + i % 7);
     path.side.push_back(path.side.back() * sign);
     star.side.push_back(sign);
   }
@@ -383,8 +384,7 @@ TEST(ConjugateGradients, NothingAskedNothingDone) {
 
 TEST(Components, SupernodesAreAllInComponentZero) {
   // 0-1 on the first supernode, 2 on the second, 3-4 free, 5 isolated.
-  const SignedGraph g =
-      graphs::from_edges(6, {{{0, 1}, 1.0}, {{3, 4}, -1.0}}, {{{1, 2.0}}, {{2, -2.0}}});
+  const SignedGraph g = graphs::from_edges(6, {{{0, 1}, 1.0}, {{3, 4}, -1.0}}, {{{1, 2.0}}, {{2, -2.0}}});
   const Components c = connected_components(g);
   EXPECT_EQ(c.count, 3u);
   EXPECT_THAT(c.of_node, testing::ElementsAre(0, 0, 0, 1, 1, 2));

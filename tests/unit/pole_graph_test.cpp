@@ -13,9 +13,7 @@ using clouds::Points;
 using clouds::Prepared;
 using Pair = std::pair<std::uint32_t, std::uint32_t>; // poles, smaller first
 
-Labels known_of(const Prepared& p, const Points& inside = {}) {
-  return known_labels(p.t, {}, inside, {}, Threads(1));
-}
+Labels known_of(const Prepared& p, const Points& inside = {}) { return known_labels(p.t, {}, inside, {}, Threads(1)); }
 
 double cosine(const Sphere& a, const Sphere& b) {
   return (squared_norm(a.centre - b.centre) - a.radius * a.radius - b.radius * b.radius) / (2 * a.radius * b.radius);
@@ -47,8 +45,8 @@ std::map<Pair, double> all_edges(const Prepared& p) {
 }
 
 struct Expected {
-  std::vector<std::uint32_t> pole;                 // of each node
-  std::map<Pair, double> edges;                    // between nodes
+  std::vector<std::uint32_t> pole;                    // of each node
+  std::map<Pair, double> edges;                       // between nodes
   std::vector<std::map<std::uint32_t, double>> super; // node -> sum
 };
 
@@ -83,7 +81,9 @@ void expect_equal(const PoleGraph& g, const Expected& e) {
   for (std::uint32_t i = 0; i < g.graph.node_count(); ++i)
     for (std::uint64_t k = g.graph.row_begin[i]; k < g.graph.row_begin[i + 1]; ++k) {
       const std::uint32_t j = g.graph.column[k];
-      if (k > g.graph.row_begin[i]) { EXPECT_LT(g.graph.column[k - 1], j); }
+      if (k > g.graph.row_begin[i]) {
+        EXPECT_LT(g.graph.column[k - 1], j);
+      }
       const auto at = e.edges.find({i, j});
       ASSERT_NE(at, e.edges.end()) << i << " " << j;
       EXPECT_NEAR(g.graph.weight[k] / at->second, 1, 1e-5);
@@ -123,8 +123,8 @@ TEST(PoleGraph, LeftOutPolesAreNoNodes) {
   for (auto& flag : left_out) flag = random.uniform() < 0.3;
   const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, left_out, Threads(1));
   expect_equal(g, expected_graph(p, known, left_out, 1));
-  const PoleGraph none = pole_graph(p.t, p.stars, p.poles, known, std::vector<std::uint8_t>(left_out.size(), 1),
-                                    Threads(1));
+  const PoleGraph none =
+      pole_graph(p.t, p.stars, p.poles, known, std::vector<std::uint8_t>(left_out.size(), 1), Threads(1));
   EXPECT_EQ(none.graph.node_count(), 0u);
 }
 

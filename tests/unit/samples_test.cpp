@@ -112,7 +112,9 @@ TEST(Samples, CoordinatesThatWouldOverflowAreRefused) {
   // All of them far away, but close together: squares of the coordinates would overflow all the same.
   EXPECT_NE(error_of([&] { prepare_samples(clouds::moved(five, {1e200, 0, 0}), Threads(1)); }), "");
   // The sum of the two ends of the box overflows.
-  EXPECT_NE(error_of([&] { prepare_samples(clouds::joined(five, {{1.7e308, 0, 0}, {-1.7e308, 0, 0}}), Threads(1)); }),
+  EXPECT_NE(error_of([&] {
+              prepare_samples(clouds::joined(five, {{1.7e308, 0, 0}, {-1.7e308, 0, 0}}), Threads(1));
+            }),
             "");
 }
 

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// §3.2 to §3.4: from signs to labels, and the labels that are taken back.
+#include <gmock/gmock.h>
+
+#include "clouds.h"
+
+namespace eigencrust {
+namespace {
+
+using clouds::Points;
+using clouds::Prepared;
+
+/// Everything up to the first partition.
+struct FirstStage {
+  explicit FirstStage(const Points& points) : p(clouds::prepare(points)) {
+    const Threads threads(1);
+    known = known_labels(p.t, {}, {}, {}, threads);
+    graph = pole_graph(p.t, p.stars, p.poles, known, {}, threads);
+    partition = partition_poles(graph, {}, threads, &component);
+  }
+  PoleLabels labels(GlobalSign sign, double min_agreement = 0) const {
+    return label_poles(p.t, p.poles, graph, partition, component, known, sign, min_agreement, Threads(1));
+  }
+  void negate_all_but_supernodes() {
+    for (float& v : partition.value) v = -v;
+  }
+
+  Prepared p;
+  Labels known;
+  PoleGraph graph;
+  Partition partition;
+  std::vector<std::uint32_t> component;
+};
+
+/// How many poles away from the cube are labelled as their sphere's centre lies to the unit sphere:
+/// those that are, and those that are labelled the other way. Centres near the sphere do not count.
+std::pair<int, int> right_and_wrong(const FirstStage& stage, const Labels& labels) {
+  std::pair<int, int> count;
+  for (std::uint32_t i = 0; i < stage.p.poles.tetrahedron.size(); ++i) {
+    const TetrahedronIndex t = stage.p.poles.tetrahedron.raw()[i];
+    const double r = norm(stage.p.poles.sphere.raw()[i].centre + stage.p.t.origin);
+    if (stage.p.t.touches_cube(t) || labels[t] == Label::unlabelled || std::fabs(r - 1) < 0.3) continue;
+    ++((labels[t] == Label::outside) == (r > 1) ? count.first : count.second);
+  }
+  return count;
+}
+
+TEST(LabelPoles, OfASphereAreInsideAndOutside) {
+  const FirstStage stage(clouds::jittered(clouds::sphere(600), 0.01, 1));
+  for (const GlobalSign sign : {GlobalSign::vote, GlobalSign::supernode}) {
+    const PoleLabels result = stage.labels(sign);
+    const auto [right, wrong] = right_and_wrong(stage, result.labels);
+    EXPECT_GT(right, 0);
+    EXPECT_EQ(wrong, 0);
+    EXPECT_FALSE(result.reversed);
+    EXPECT_EQ(result.left_to_stage_two, 0u);
+    EXPECT_EQ(result.contradicted, 0u);
+  }
+  EXPECT_GT(stage.labels(GlobalSign::vote).vote, 0.9);
+}
+
+TEST(LabelPoles, KnownLabelsStay) {
+  const FirstStage stage(clouds::jittered(clouds::sphere(300), 0.01, 2));
+  const PoleLabels result = stage.labels(GlobalSign::vote);
+  for (std::uint32_t i = 0; i < stage.known.size(); ++i)
+    if (stage.known.raw()[i] != Label::unlabelled) {
+      EXPECT_EQ(result.labels.raw()[i], stage.known.raw()[i]);
+    }
+}
+
+TEST(LabelPoles, OnlyPolesAreLabelled) {
+  const FirstStage stage(clouds::jittered(clouds::sphere(300), 0.01, 3));
+  const PoleLabels result = stage.labels(GlobalSign::vote);
+  std::vector<std::uint8_t> is_pole(stage.known.size(), 0);
+  for (const TetrahedronIndex t : stage.p.poles.tetrahedron) is_pole[t.value] = 1;
+  for (std::uint32_t i = 0; i < stage.known.size(); ++i)
+    if (!is_pole[i]) {
+      EXPECT_EQ(result.labels.raw()[i], stage.known.raw()[i]);
+    }
+}
+
+TEST(LabelPoles, AForgedSupernodeSignIsOverruledByTheVote) {
+  // The sign of z alone is turned: the poles' values say as before which are together.
+  FirstStage stage(clouds::jittered(clouds::sphere(600), 0.01, 4));
+  const Labels truth = stage.labels(GlobalSign::vote).labels;
+  stage.partition.supernode_value[0] = -stage.partition.supernode_value[0];
+  const PoleLabels voted = stage.labels(GlobalSign::vote);
+  EXPECT_TRUE(voted.reversed);
+  EXPECT_EQ(voted.labels.raw(), truth.raw());
+  const PoleLabels believed = stage.labels(GlobalSign::supernode);
+  EXPECT_FALSE(believed.reversed);
+  EXPECT_EQ(right_and_wrong(stage, believed.labels).first, 0);
+}
+
+TEST(LabelPoles, TheSignOfTheWholeVectorIsArbitrary) {
+  FirstStage stage(clouds::jittered(clouds::sphere(300), 0.01, 5));
+  for (const GlobalSign sign : {GlobalSign::vote, GlobalSign::supernode}) {
+    const Labels before = stage.labels(sign).labels;
+    stage.negate_all_but_supernodes();
+    stage.partition.supernode_value[0] = -stage.partition.supernode_value[0];
+    EXPECT_EQ(stage.labels(sign).labels.raw(), before.raw());
+  }
+}
+
+TEST(LabelPoles, AShellOfOutliersDoesNotTurnInsideOut) {
+  // All hull samples are outliers; each claims that what it sees within is inside.
+  clouds::Random random(6);
+  Points points = clouds::jittered(clouds::sphere(2000), 0.005, 7);
+  for (int i = 0; i < 60;) {
+    const Vec3 p = random.in_box(1.6);
+    if (norm(p) < 1.3) continue;
+    points.push_back(p);
+    ++i;
+  }
+  const FirstStage stage(points);
+  const auto [right, wrong] = right_and_wrong(stage, stage.labels(GlobalSign::vote).labels);
+  EXPECT_GT(right, 20 * wrong);
+}
+
+TEST(LabelPoles, PolesThatTheirNeighboursContradictGetNoLabel) {
+  FirstStage stage(clouds::jittered(clouds::sphere(600), 0.01, 8));
+  // One inside node turned against all of its neighbours, with a value too small to move anybody else.
+  std::uint32_t node = 0;
+  while (stage.partition.value[node] * stage.partition.supernode_value[0] >= 0) ++node;
+  stage.partition.value[node] = -1e-6f * stage.partition.value[node];
+  const TetrahedronIndex t = stage.p.poles.tetrahedron[stage.graph.pole.raw()[node]];
+  EXPECT_EQ(stage.labels(GlobalSign::supernode, 0).labels[t], Label::outside);
+  const PoleLabels strict = stage.labels(GlobalSign::supernode, 0.8);
+  EXPECT_EQ(strict.labels[t], Label::unlabelled);
+  EXPECT_GE(strict.contradicted, 1u);
+}
+
+TEST(LabelPoles, FreeComponentsTakeTheSideOfTheirNeighboursByFace) {
+  // One node declared a component of its own, once with either sign: its labelled neighbours agree, so
+  // it must come out as they are.
+  FirstStage stage(clouds::jittered(clouds::sphere(600), 0.01, 9));
+  const Labels truth = stage.labels(GlobalSign::vote).labels;
+  int tried = 0;
+  for (std::uint32_t node = 0; node < stage.graph.pole.size() && tried < 10; ++node) {
+    const TetrahedronIndex t = stage.p.poles.tetrahedron[stage.graph.pole.raw()[node]];
+    int outside = 0, inside = 0;
+    for (const TetrahedronIndex n : stage.p.t.neighbours[t]) {
+      outside += truth[n] == Label::outside;
+      inside += truth[n] == Label::inside;
+    }
+    if ((outside == 0) == (inside == 0)) continue; // nobody to ask, or a dispute
+    ++tried;
+    FirstStage changed = stage;
+    changed.component[node] = 1;
+    for (const float value : {1.0f, -1.0f}) {
+      changed.partition.value[node] = value;
+      EXPECT_EQ(changed.labels(GlobalSign::supernode).labels[t], outside > 0 ? Label::outside : Label::inside);
+    }
+  }
+  EXPECT_EQ(tried, 10);
+}
+
+TEST(Questionable, TetrahedraHaveAllEdgesBelowFourGridSpacings) {
+  const Prepared p = clouds::prepare(clouds::random_box(200, 10));
+  const double spacing = 0.12;
+  const std::vector<std::uint8_t> flags = questionable_tetrahedra(p.t, spacing, Threads(2));
+  ASSERT_EQ(flags.size(), p.t.tetrahedra.size());
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < flags.size(); ++i) {
+    double longest = 0;
+    for (const SampleIndex a : p.t.tetrahedra.raw()[i])
+      for (const SampleIndex b : p.t.tetrahedra.raw()[i])
+        longest = std::max(longest, distance(p.t.positions[a], p.t.positions[b]));
+    EXPECT_EQ(flags[i] != 0, longest < 4 * spacing && !p.t.touches_cube(TetrahedronIndex{i}));
+    count += flags[i];
+  }
+  EXPECT_GT(count, 0u);
+  EXPECT_LT(count, flags.size() / 2);
+  EXPECT_TRUE(questionable_tetrahedra(p.t, 0, Threads(1)).empty());
+  // Cube tetrahedra stay however large the spacing.
+  const auto all = questionable_tetrahedra(p.t, 1e9, Threads(1));
+  for (std::uint32_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i] == 0, p.t.touches_cube(TetrahedronIndex{i}));
+}
+
+TEST(Questionable, LabelsAreRemovedUnlessKnownBeforehand) {
+  using enum Label;
+  const Labels known(std::vector<Label>{outside, unlabelled, unlabelled, unlabelled, inside});
+  Labels labels(std::vector<Label>{outside, inside, outside, unlabelled, inside});
+  const std::vector<std::uint8_t> questionable{1, 1, 0, 1, 1};
+  EXPECT_EQ(unlabel_questionable(questionable, known, labels), 1u);
+  EXPECT_THAT(labels.raw(), testing::ElementsAre(outside, unlabelled, outside, unlabelled, inside));
+  EXPECT_EQ(unlabel_questionable({}, known, labels), 0u); // §3.3 switched off
+}
+
+TEST(LabelTetrahedra, TakeTheSideOfTheSupernodeWhoseSignTheyShare) {
+  using enum Label;
+  // Tetrahedra 1 and 3 were open; both vectors say the same of them.
+  TetrahedronGraph graph;
+  graph.graph.row_begin = {0, 0, 0};
+  graph.tetrahedron.raw() = {TetrahedronIndex{1}, TetrahedronIndex{3}};
+  for (const float sign : {1.0f, -1.0f}) {
+    Partition partition;
+    partition.supernode_value = {0.5 * static_cast<double>(sign), -0.25 * static_cast<double>(sign)};
+    partition.value = {0.125f * sign, -0.75f * sign};
+    const FinalLabels result =
+        label_tetrahedra(graph, partition, Labels(std::vector<Label>{outside, unlabelled, inside, unlabelled}));
+    EXPECT_THAT(result.labels.raw(), testing::ElementsAre(outside, outside, inside, inside));
+    EXPECT_THAT(result.value.raw(), testing::ElementsAre(0.5f, 0.125f, -0.25f, -0.75f));
+    EXPECT_FALSE(result.supernodes_agree);
+  }
+  Partition useless;
+  useless.supernode_value = {0.5, 0.25};
+  useless.value = {0, 0.1f};
+  EXPECT_TRUE(label_tetrahedra(graph, useless, Labels(std::vector<Label>{outside, unlabelled, inside, unlabelled}))
+                  .supernodes_agree);
+}
+
+} // namespace
+} // namespace eigencrust

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <eigencrust/report.h>
+#include <eigencrust/version.h>
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "shapes.h"
+
+namespace eigencrust {
+namespace {
+
+using nlohmann::json;
+using testing::IsSupersetOf;
+
+std::vector<std::string> keys(const json& object) {
+  std::vector<std::string> names;
+  for (const auto& [key, value] : object.items()) names.push_back(key);
+  return names;
+}
+
+Report sample_report() {
+  Report report;
+  report.command = {"eigencrust", "in.ply", "-o", "out \"quoted\".ply"};
+  report.files = {{"in.ply", "abc", 100}};
+  report.points = 100;
+  report.duplicates = 3;
+  report.nonfinite = 2;
+  report.spacing = 0.25;
+  report.bounds.add({0, 0, 0});
+  report.bounds.add({1, 2, 3});
+  report.options.facade = Axis::minus_y;
+  report.options.inside_points = {{1, 2, 3}};
+  report.stages = {{"delaunay", 1.5, 4096, {{"tetrahedra", 600}, {"share", 0.5}}}};
+  PartitionReport partition;
+  partition.stage = "poles";
+  partition.nodes = 7;
+  partition.sign_changes = {5, 1, 0};
+  partition.status = SolverStatus::signs_stable;
+  report.partitions = {partition};
+  report.mesh = validate(shapes::hollow_sphere(1, 2, 1));
+  report.dropped_components = {{5, 6, 3.5, {1, 1, 1}}};
+  report.warnings = {"look here"};
+  return report;
+}
+
+TEST(Report, HasTheSchemaOfTheDocumentation) {
+  const json j = json::parse(to_json(sample_report()));
+  EXPECT_EQ(j["schema"], 1);
+  EXPECT_EQ(j["version"], version());
+  EXPECT_THAT(keys(j), IsSupersetOf({"schema", "version", "command", "input", "options", "stages", "partitions", "mesh",
+                                     "grid_spacing", "dropped_components", "undecided_nodes", "seconds",
+                                     "peak_memory_bytes", "warnings", "broken_guarantees"}));
+  EXPECT_THAT(keys(j["input"]), IsSupersetOf({"files", "points", "duplicates", "nonfinite", "spacing", "bounds"}));
+  EXPECT_THAT(keys(j["input"]["files"][0]), IsSupersetOf({"path", "sha256", "points"}));
+  EXPECT_THAT(keys(j["stages"][0]), IsSupersetOf({"name", "seconds", "peak_memory_bytes", "tetrahedra"}));
+  EXPECT_THAT(keys(j["partitions"][0]), IsSupersetOf({"stage", "nodes", "edges", "eigenvalue", "residual", "iterations",
+                                                      "sign_changes", "status"}));
+  EXPECT_THAT(keys(j["mesh"]),
+              IsSupersetOf({"vertices", "triangles", "boundary_edges", "nonmanifold_edges", "nonmanifold_vertices",
+                            "inconsistent_edges", "degenerate_triangles", "self_intersections", "components", "genus",
+                            "euler", "volume", "area", "component_list"}));
+}
+
+TEST(Report, HoldsWhatItWasGiven) {
+  const json j = json::parse(to_json(sample_report()));
+  EXPECT_EQ(j["command"][3], "out \"quoted\".ply");
+  EXPECT_EQ(j["input"]["duplicates"], 3);
+  EXPECT_EQ(j["input"]["bounds"]["max"], json({1.0, 2.0, 3.0}));
+  EXPECT_EQ(j["stages"][0]["tetrahedra"], 600);
+  EXPECT_TRUE(j["stages"][0]["tetrahedra"].is_number_integer());
+  EXPECT_EQ(j["stages"][0]["share"], 0.5);
+  EXPECT_EQ(j["partitions"][0]["status"], "signs_stable");
+  EXPECT_EQ(j["partitions"][0]["sign_changes"], json({5, 1, 0}));
+  EXPECT_EQ(j["mesh"]["components"], 2);
+  EXPECT_EQ(j["mesh"]["component_list"].size(), 2u);
+  EXPECT_EQ(j["dropped_components"][0]["vertices"], 5);
+  EXPECT_EQ(j["warnings"][0], "look here");
+}
+
+TEST(Report, HoldsEveryEffectiveOption) {
+  const json o = json::parse(to_json(sample_report()))["options"];
+  EXPECT_THAT(keys(o), testing::UnorderedElementsAre(
+                           "preset", "eigensolver", "stop_on_stable_signs", "stable_share", "tolerance", "max_steps",
+                           "second_stage", "grid_spacing", "questionable", "global_sign", "min_agreement", "pole_ties",
+                           "recover_share", "manifold", "manifold_rule", "components", "smooth", "smoothing",
+                           "outside_points", "inside_points", "facade", "threads"));
+  EXPECT_EQ(o["facade"], "-y");
+  EXPECT_EQ(o["inside_points"], json::array({json({1.0, 2.0, 3.0})}));
+  EXPECT_TRUE(json::parse(to_json(Report{}))["options"]["facade"].is_null());
+}
+
+TEST(Report, OfNothingStillParses) {
+  const json j = json::parse(to_json(Report{}));
+  EXPECT_EQ(j["mesh"]["triangles"], 0);
+  EXPECT_TRUE(j["mesh"]["self_intersections"].is_null()); // not computed
+}
+
+TEST(Report, PathsThatAreNoUtf8AndNumbersThatAreNoneStillParse) {
+  Report report = sample_report();
+  report.files[0].path = "scan\xff\xfe.ply";
+  report.spacing = std::numeric_limits<double>::quiet_NaN();
+  report.partitions[0].residual = std::numeric_limits<double>::infinity();
+  report.stages[0].counts = {{"odd", std::numeric_limits<double>::infinity()}, {"huge", 1e300}};
+  const json j = json::parse(to_json(report));
+  EXPECT_TRUE(j["input"]["spacing"].is_null());
+  EXPECT_EQ(j["stages"][0]["huge"], 1e300);
+}
+
+TEST(Report, ListsAtMostAHundredComponents) {
+  MeshSummary mesh;
+  mesh.component_list.resize(250);
+  EXPECT_EQ(json::parse(to_json(mesh))["component_list"].size(), 100u);
+}
+
+TEST(Report, PeakMemoryIsPlausible) {
+  EXPECT_GT(peak_memory_bytes(), 1u << 20);
+  EXPECT_LT(peak_memory_bytes(), 1ull << 42);
+}
+
+TEST(Report, EveryStatusHasAName) {
+  using enum SolverStatus;
+  std::vector<std::string> names;
+  for (const SolverStatus status : {converged, signs_stable, consistent, not_converged, trivial})
+    names.emplace_back(to_string(status));
+  EXPECT_THAT(names, testing::ElementsAre("converged", "signs_stable", "consistent", "not_converged", "trivial"));
+}
+
+} // namespace
+} // namespace eigencrust
