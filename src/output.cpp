@@ -58,6 +58,13 @@ void describe_pole_labels(const PoleLabels& labels, Run& run) {
   run.count("left_to_stage_two", static_cast<double>(labels.left_to_stage_two));
 }
 
+std::uint64_t count_overruled(const Labels& known, const Labels& labels) {
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < known.size(); ++i)
+    count += known.raw()[i] != Label::unlabelled && known.raw()[i] != labels.raw()[i];
+  return count;
+}
+
 void require_surface(const Surface& surface) {
   if (surface.mesh.triangles.empty())
     throw Error(

@@ -17,6 +17,8 @@ void describe_partition(const std::string& name, const SignedGraph& graph, const
                         Report& report);
 void describe_pole_labels(const PoleLabels& labels, Run& run);
 
+/// Tetrahedra whose label is not the one known beforehand.
+std::uint64_t count_overruled(const Labels& known, const Labels& labels);
 /// \throws Error{no_surface}
 void require_surface(const Surface& surface);
 /// What the options promise and the mesh is not.

@@ -77,12 +77,15 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
 
   // §3.5, §3: manifold, surface
   if (options.manifold) {
-    const auto counts = run.stage(
-        "manifold", [&] { return make_manifold(t, stars, poles, options.manifold_rule, labels, run.checkpoint()); });
+    const auto counts = run.stage("manifold", [&] {
+      return make_manifold(t, stars, poles, known, options.manifold_rule, labels, run.checkpoint());
+    });
     run.count("edges_repaired", static_cast<double>(counts.edges));
     run.count("vertices_repaired", static_cast<double>(counts.vertices));
     run.count("tetrahedra_relabelled", static_cast<double>(counts.relabelled));
   }
+  if (const std::uint64_t overruled = count_overruled(known, labels.labels); overruled > 0)
+    run.warn(std::to_string(overruled) + " tetrahedra named inside or outside were overruled by the manifold repair");
   const auto recovered =
       run.stage("recover", [&] { return recover_samples(t, stars, known, options.recover_share, labels.labels); });
   run.count("samples", static_cast<double>(recovered));

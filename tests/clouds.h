@@ -115,6 +115,7 @@ inline Points torus(double major, double minor, unsigned around, unsigned across
 struct Prepared {
   Tetrahedralization t;
   VertexStars stars;
+  Labels known;
   Poles poles;
 };
 inline Prepared prepare(const Points& points, unsigned threads = 1) {
@@ -123,6 +124,7 @@ inline Prepared prepare(const Points& points, unsigned threads = 1) {
   p.t = tetrahedralize(prepare_samples(points, team), team);
   p.stars = vertex_stars(p.t, team);
   p.poles = find_poles(p.t, p.stars, team);
+  p.known = known_labels(p.t, {}, {}, {}, team);
   return p;
 }
 

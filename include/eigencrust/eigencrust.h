@@ -25,12 +25,12 @@ struct Result {
 
 /// Reconstructs the surface that `cloud` was sampled from.
 ///
-/// Guarantees: every edge of the mesh belongs to exactly two triangles (closed), with
-/// options.manifold also every vertex to one fan (manifold); triangles are counter-clockwise seen from
-/// outside; vertices are distinct points. The mesh is checked; what does not hold (a fault of the
-/// program) is named in report.broken_guarantees. Exceptions: options.facade leaves the mesh open.
-/// The result depends on the set of points and the options alone, not on the order of the rows
-/// (but for source_index of duplicates: the smallest row) nor on the number of threads.
+/// Guarantees: the mesh is closed, and with options.manifold every edge belongs to exactly two triangles
+/// and every vertex to one fan (manifold); otherwise an edge may belong to any even number of triangles; triangles are
+/// counter-clockwise seen from outside; vertices are distinct points. The mesh is checked; what does not hold (a fault
+/// of the program) is named in report.broken_guarantees. Exceptions: options.facade leaves the mesh open. The result
+/// depends on the set of points and the options alone, not on the order of the rows (but for source_index of
+/// duplicates: the smallest row) nor on the number of threads.
 ///
 /// \throws Error{usage}      options out of range
 ///         Error{input}      fewer than 5 distinct finite points, all coplanar or collinear, mismatched arrays

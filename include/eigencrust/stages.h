@@ -107,13 +107,15 @@ struct FinalLabels {
 FinalLabels label_tetrahedra(const TetrahedronGraph& graph, const Partition& partition, Labels labels);
 
 /// §3.5: relabels tetrahedra until the surface is a manifold. With the paper's rule labels only go from
-/// inside to outside; with `cheapest` a tetrahedron may once go the other way, so both end.
+/// inside to outside; with `cheapest` a tetrahedron may once go the other way, so both end. What is `known` gives way
+/// only where nothing else does.
 struct ManifoldCounts {
   std::uint64_t edges = 0, vertices = 0; ///< repairs of either kind
   std::uint64_t relabelled = 0;          ///< tetrahedra
 };
 ManifoldCounts make_manifold(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
-                             ManifoldRule rule, FinalLabels& labels, const Checkpoint& checkpoint = {});
+                             const Labels& known, ManifoldRule rule, FinalLabels& labels,
+                             const Checkpoint& checkpoint = {});
 
 /// Takes samples into the surface that it passes by closely: the tetrahedron between such a sample and a
 /// surface triangle changes sides, which neither opens nor joins anything. Only when such samples are at

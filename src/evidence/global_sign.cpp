@@ -11,11 +11,11 @@
 namespace eigencrust {
 namespace {
 
-constexpr std::size_t neighbourhood = 20;
+constexpr std::size_t neighbourhood = 8;
 
-/// 0 for cells no longer than 1.5 neighbourhoods, 1 from 3.5 (docs/decisions/0003).
+/// 0 for cells no longer than 1.2 neighbourhoods, 1 from 3.2 (docs/decisions/0003).
 double trust(double shorter_pole, double neighbourhood_radius) {
-  return std::clamp((shorter_pole / neighbourhood_radius - 1.5) / 2, 0.0, 1.0);
+  return std::clamp((shorter_pole / neighbourhood_radius - 1.2) / 2, 0.0, 1.0);
 }
 
 struct Evidence {

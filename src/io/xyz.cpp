@@ -85,7 +85,7 @@ class RowReader {
       header_line_ = lines_.number();
       return false;
     }
-    drop_empty_end(fields_, 0);
+    drop_empty_end(fields_, header_.size()); // an empty last value is one where the header has a name for it
     if (!options_.columns.empty()) {
       table_.set_layout(complete_names(options_.columns, fields_.size()), lines_);
     } else if (!header_.empty()) {

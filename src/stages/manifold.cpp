@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// §3.5: from a watertight surface to a manifold, by relabelling inside tetrahedra outside. Labels only go
-// one way, so it ends.
+// §3.5: from a watertight surface to a manifold, by relabelling. With the paper's rule labels only go from
+// inside to outside; with the other each tetrahedron may come back once. So both end.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,11 +16,12 @@ namespace {
 
 class ManifoldRepair {
  public:
-  ManifoldRepair(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, ManifoldRule rule,
-                 FinalLabels& labels)
+  ManifoldRepair(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& known,
+                 ManifoldRule rule, FinalLabels& labels)
       : t_(t),
         stars_(stars),
         poles_(poles),
+        known_(known),
         rule_(rule),
         labels_(labels),
         star_(t, stars),
@@ -75,8 +76,10 @@ class ManifoldRepair {
 
   // The cheapest of all flips, either way.
 
-  /// May this tetrahedron become inside? Each may once, so that repairs end; the cube's never.
-  bool may_fill(std::uint32_t i) const { return !filled_[star_[i].value] && !t_.touches_cube(star_[i]); }
+  /// May this tetrahedron become inside? Each may once, so that repairs end; those known to be outside never.
+  bool may_fill(std::uint32_t i) const {
+    return !filled_[star_[i].value] && known_[star_[i]] == Label::unlabelled && !t_.touches_cube(star_[i]);
+  }
 
   void flip(std::uint32_t i) {
     if (labels_.labels[star_[i]] == Label::inside) return set_outside(i);
@@ -154,7 +157,11 @@ class ManifoldRepair {
       if (!t_.is_corner(v)) waiting_[v.value] = 1;
   }
 
-  float magnitude(std::uint32_t i) const { return std::fabs(labels_.value[star_[i]]); }
+  /// How sure the label is; what is known beforehand gives way last.
+  float magnitude(std::uint32_t i) const {
+    constexpr float known_price = 1e6f;
+    return known_[star_[i]] == Label::unlabelled ? std::fabs(labels_.value[star_[i]]) : known_price;
+  }
 
   double volume(std::uint32_t i) const {
     const auto& [a, b, c, d] = t_.tetrahedra[star_[i]];
@@ -265,6 +272,7 @@ class ManifoldRepair {
   const Tetrahedralization& t_;
   const VertexStars& stars_;
   const Poles& poles_;
+  const Labels& known_;
   ManifoldRule rule_;
   FinalLabels& labels_;
   Star star_;
@@ -279,8 +287,9 @@ class ManifoldRepair {
 } // namespace
 
 ManifoldCounts make_manifold(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles,
-                             ManifoldRule rule, FinalLabels& labels, const Checkpoint& checkpoint) {
-  return ManifoldRepair(t, stars, poles, rule, labels).run(checkpoint);
+                             const Labels& known, ManifoldRule rule, FinalLabels& labels,
+                             const Checkpoint& checkpoint) {
+  return ManifoldRepair(t, stars, poles, known, rule, labels).run(checkpoint);
 }
 
 } // namespace eigencrust
