@@ -21,7 +21,8 @@ struct StageShare {
   std::string_view name;
   double share;
 };
-constexpr std::array<StageShare, 17> shares{{{"samples", 4},
+constexpr std::array<StageShare, 18> shares{{{"samples", 4},
+                                             {"noise", 2},
                                              {"delaunay", 24},
                                              {"stars", 1},
                                              {"poles", 4},

@@ -58,6 +58,31 @@ void describe_pole_labels(const PoleLabels& labels, Run& run) {
   run.count("left_to_stage_two", static_cast<double>(labels.left_to_stage_two));
 }
 
+std::vector<float> grid_spacing_field(const Samples& samples, const Options& options, double global,
+                                      const Threads& threads) {
+  if (options.questionable == Questionable::never) return {};
+  if (global > 0) return std::vector<float>(samples.positions.size() + 8, static_cast<float>(global));
+  if (options.grid_spacing.kind != GridSpacing::Kind::automatic || options.preset == Preset::paper) return {};
+  // Four times ℓ is the length below which a tetrahedron may be noise alone (docs/decisions/0012).
+  constexpr float grid_spacing_in_deviations = 1.2f;
+  std::vector<float> field = std::move(noise_scale(samples, threads).raw());
+  bool some = false;
+  for (float& value : field) {
+    value *= grid_spacing_in_deviations;
+    some = some || value > 0;
+  }
+  return some ? field : std::vector<float>{};
+}
+
+std::vector<float> reach_of(const std::vector<float>& grid_spacing, const Options& options, double spacing) {
+  if (options.preset == Preset::paper || grid_spacing.empty()) return {};
+  // Twice ℓ is 2.4 σ: from the middle of the noise to where it thins out on either side.
+  constexpr float reach_in_grid_spacings = 2;
+  std::vector<float> reach = grid_spacing;
+  for (float& r : reach) r = static_cast<double>(r) < spacing ? 0 : reach_in_grid_spacings * r;
+  return reach;
+}
+
 std::uint64_t count_overruled(const Labels& known, const Labels& labels) {
   std::uint64_t count = 0;
   for (std::size_t i = 0; i < known.size(); ++i)

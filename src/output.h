@@ -17,6 +17,12 @@ void describe_partition(const std::string& name, const SignedGraph& graph, const
                         Report& report);
 void describe_pole_labels(const PoleLabels& labels, Run& run);
 
+/// ℓ of §3.3 at every sample: the one given or found for merged scans, else from the noise measured at each
+/// sample; empty where there is none.
+std::vector<float> grid_spacing_field(const Samples& samples, const Options& options, double global,
+                                      const Threads& threads);
+/// How far each sample looks for its poles; 0 where the noise is below the spacing. Empty: nowhere.
+std::vector<float> reach_of(const std::vector<float>& grid_spacing, const Options& options, double spacing);
 /// Tetrahedra whose label is not the one known beforehand.
 std::uint64_t count_overruled(const Labels& known, const Labels& labels);
 /// \throws Error{no_surface}

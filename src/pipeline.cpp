@@ -28,22 +28,23 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
     return found;
   });
   describe_input(cloud, samples, report);
+  const std::vector<float> grid =
+      run.stage("noise", [&] { return grid_spacing_field(samples, options, report.grid_spacing, threads); });
+  const std::vector<float> reach = reach_of(grid, options, report.spacing);
 
   // §3: S+ = samples and cube corners, T = Delaunay(S+), poles
   Tetrahedralization t = run.stage("delaunay", [&] { return tetrahedralize(std::move(samples), threads); });
   run.count("tetrahedra", t.tetrahedra.size());
   const VertexStars stars = run.stage("stars", [&] { return vertex_stars(t, threads); });
-  const Poles poles = run.stage("poles", [&] { return find_poles(t, stars, threads); });
+  const Poles poles = run.stage("poles", [&] { return find_poles(t, stars, reach, threads); });
   run.count("poles", poles.tetrahedron.size());
 
   // §3.1: what is known beforehand, and the pole graph G
   const Labels known = run.stage("evidence", [&] {
     return known_labels(t, options.outside_points, options.inside_points, options.facade, threads);
   });
-  const bool use_questionable = options.questionable != Questionable::never;
-  const auto questionable = run.stage("questionable", [&] { // §3.3
-    return questionable_tetrahedra(t, use_questionable ? report.grid_spacing : 0.0, threads);
-  });
+  const auto questionable =
+      run.stage("questionable", [&] { return questionable_tetrahedra(t, grid, threads); }); // §3.3
   const bool leave_out = options.questionable == Questionable::before;
   const PoleGraph g = run.stage("pole_graph", [&] {
     return pole_graph(t, stars, poles, known, leave_out ? questionable : std::vector<std::uint8_t>{}, threads);
@@ -63,8 +64,9 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
     run.count("labels_removed", static_cast<double>(unlabel_questionable(questionable, known, pole_labels.labels)));
 
   // §3.4: the second graph H labels the rest
-  const TetrahedronGraph h = run.stage(
-      "tetrahedron_graph", [&] { return tetrahedron_graph(t, poles, pole_labels.labels, options.pole_ties, threads); });
+  const TetrahedronGraph h = run.stage("tetrahedron_graph", [&] {
+    return tetrahedron_graph(t, poles, pole_labels.labels, options.pole_ties, reach, threads);
+  });
   const Partition second = run.stage("partition_tetrahedra", [&] {
     return partition_tetrahedra(h, options.second_stage, options.solver, threads, run.checkpoint());
   });

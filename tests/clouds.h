@@ -123,7 +123,7 @@ inline Prepared prepare(const Points& points, unsigned threads = 1) {
   Prepared p;
   p.t = tetrahedralize(prepare_samples(points, team), team);
   p.stars = vertex_stars(p.t, team);
-  p.poles = find_poles(p.t, p.stars, team);
+  p.poles = find_poles(p.t, p.stars, {}, team);
   p.known = known_labels(p.t, {}, {}, {}, team);
   return p;
 }

@@ -35,13 +35,20 @@ double median_spacing(const Samples& samples, std::span<const Vec3> points, std:
 double resolve_grid_spacing(const GridSpacing& option, const Samples& samples, std::span<const Vec3> points,
                             std::span<const std::uint32_t> scan_index, const Threads& threads);
 
+/// Standard deviation of the noise at each sample, 0 where there is none to be told from curvature; smooth
+/// in space, length unit of the input (not in the paper).
+IndexedArray<SampleIndex, float> noise_scale(const Samples& samples, const Threads& threads);
+
 /// §3: Delaunay tetrahedra of the samples and the corners of a cube whose half side is 10 diagonals of
 /// their bounding box. \throws Error{input} when all samples are coplanar or collinear
 Tetrahedralization tetrahedralize(Samples samples, const Threads& threads);
 VertexStars vertex_stars(const Tetrahedralization& tetrahedralization, const Threads& threads);
 
-/// §3: the pole pair of every sample, the farthest circumcentres on either side.
-Poles find_poles(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Threads& threads);
+/// §3: the pole pair of every sample, the farthest circumcentres on either side. With `reach` (may be empty;
+/// a length per sample) a sample takes its pair from the poles of all samples within reach: where noise
+/// exceeds the spacing no single cell sees both sides (Alliez et al. 2007; not in the paper).
+Poles find_poles(const Tetrahedralization& tetrahedralization, const VertexStars& stars, std::span<const float> reach,
+                 const Threads& threads);
 
 /// §3.1: what is known beforehand. Tetrahedra at the cube are outside (with a façade: those at its front;
 /// those whose corners are all at the back are inside), as are those that hold the user's points.
@@ -49,9 +56,10 @@ Poles find_poles(const Tetrahedralization& tetrahedralization, const VertexStars
 Labels known_labels(const Tetrahedralization& tetrahedralization, std::span<const Vec3> outside_points,
                     std::span<const Vec3> inside_points, std::optional<Axis> facade, const Threads& threads);
 
-/// §3.3: tetrahedra whose longest edge is < 4 × grid_spacing, none with a cube corner.
-std::vector<std::uint8_t> questionable_tetrahedra(const Tetrahedralization& tetrahedralization, double grid_spacing,
-                                                  const Threads& threads);
+/// §3.3: tetrahedra whose longest edge is < 4 × the mean grid spacing at their samples, none with a cube
+/// corner. \param grid_spacing a length per sample; empty: none is questionable
+std::vector<std::uint8_t> questionable_tetrahedra(const Tetrahedralization& tetrahedralization,
+                                                  std::span<const float> grid_spacing, const Threads& threads);
 
 /// §3.1: the signed graph on the poles with the outside supernode (0) and, when something is known to be
 /// inside, the inside supernode (1). Poles of tetrahedra in `left_out` (may be empty) are no nodes.
@@ -89,9 +97,11 @@ std::uint64_t unlabel_questionable(std::span<const std::uint8_t> questionable, c
 /// §3.4: one node per unlabelled tetrahedron, supernodes for all outside (0) and all inside (1) ones;
 /// a face weighs longest/shortest of its edges. With pole_ties > 0 each node is also joined to the
 /// supernodes by that factor times Σ e^(4 cos ∠(c s p)) over the poles p of its samples s whose two poles
-/// have opposite labels, c being its circumcentre (not in the paper).
+/// have opposite labels, c being its circumcentre; samples with a reach (may be empty) > 0 are too noisy for
+/// that (not in the paper).
 TetrahedronGraph tetrahedron_graph(const Tetrahedralization& tetrahedralization, const Poles& poles,
-                                   const Labels& labels, double pole_ties, const Threads& threads);
+                                   const Labels& labels, double pole_ties, std::span<const float> reach,
+                                   const Threads& threads);
 
 /// §3.4: `eigenvector` as in the paper; `harmonic`: outside fixed at +1, inside at -1.
 Partition partition_tetrahedra(const TetrahedronGraph& graph, SecondStage method, const SolverOptions& options,

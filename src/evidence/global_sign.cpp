@@ -13,9 +13,10 @@ namespace {
 
 constexpr std::size_t neighbourhood = 8;
 
-/// 0 for cells no longer than 1.2 neighbourhoods, 1 from 3.2 (docs/decisions/0003).
+/// Least for cells no longer than 1.2 neighbourhoods, 1 from 3.2 (docs/decisions/0003). Never 0: on a
+/// handful of points no cell is long, yet they outweigh the weak attraction across their surface.
 double trust(double shorter_pole, double neighbourhood_radius) {
-  return std::clamp((shorter_pole / neighbourhood_radius - 1.2) / 2, 0.0, 1.0);
+  return std::clamp((shorter_pole / neighbourhood_radius - 1.2) / 2, 0.05, 1.0);
 }
 
 struct Evidence {
@@ -47,7 +48,7 @@ double outside_evidence(const Tetrahedralization& t, const Poles& poles, const P
         const std::size_t found = tree.nearest(t.positions.raw()[i], neighbourhood + 1, index.data(), square.data());
         const Sphere &a = poles.sphere[pair.first], &b = poles.sphere[pair.second];
         const Vec3& s = t.positions.raw()[i];
-        const double cosine = -dot(a.centre - s, b.centre - s) / (a.radius * b.radius);
+        const double cosine = -dot(a.centre - s, b.centre - s) / (norm(a.centre - s) * norm(b.centre - s));
         const double weight = std::exp(4 + 4 * std::clamp(cosine, -1.0, 1.0));
         repulsive[i] = {static_cast<float>(trust(std::min(a.radius, b.radius), std::sqrt(square[found - 1])) * weight),
                         static_cast<float>(weight)};

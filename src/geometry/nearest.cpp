@@ -44,6 +44,17 @@ std::size_t PointTree::nearest(const Vec3& query, std::size_t k, std::uint32_t* 
   return impl_->tree.knnSearch(q.data(), k, index, squared_distance);
 }
 
+std::vector<std::uint32_t> PointTree::within(const Vec3& query, double radius) const {
+  const std::array<double, 3> q{query.x, query.y, query.z};
+  std::vector<std::pair<std::uint32_t, double>> found;
+  const nanoflann::SearchParams unsorted(32, 0.0f, false);
+  impl_->tree.radiusSearch(q.data(), radius * radius, found, unsorted);
+  std::vector<std::uint32_t> index;
+  index.reserve(found.size());
+  for (const auto& [i, square] : found) index.push_back(i);
+  return index;
+}
+
 std::vector<double> nearest_other(std::span<const Vec3> points, const Threads& threads) {
   if (points.size() < 2) return {};
   const PointTree tree(points);

@@ -25,6 +25,9 @@ class PointTree {
   /// \return how many were found
   std::size_t nearest(const Vec3& query, std::size_t k, std::uint32_t* index, double* squared_distance) const;
 
+  /// All points at distance <= radius, in no particular order.
+  std::vector<std::uint32_t> within(const Vec3& query, double radius) const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -24,8 +24,11 @@ std::uint32_t count_sign_changes(const Vector& before, const Vector& after, cons
   });
 }
 
-bool signs_are_stable(const std::vector<std::uint32_t>& changes, std::size_t n, const IterationControl& control) {
-  if (!control.stop_on_stable_signs || changes.size() < std::max(2u, control.min_steps)) return false;
+bool signs_are_stable(const std::vector<std::uint32_t>& changes, double residual, std::size_t n,
+                      const IterationControl& control) {
+  if (!control.stop_on_stable_signs || residual > control.stable_residual ||
+      changes.size() < std::max(2u, control.min_steps))
+    return false;
   const double limit = control.stable_share * static_cast<double>(n);
   return changes.back() <= limit && changes[changes.size() - 2] <= limit;
 }
@@ -172,12 +175,15 @@ IterationResult smallest_eigenvector(const SignedMultigrid& hierarchy, const Ite
       const Vector before = iteration.vector();
       iteration.step();
       changes.push_back(count_sign_changes(before, iteration.vector(), threads));
-      if (iteration.residual_norm() <= control.tolerance || signs_are_stable(changes, before.size(), rule)) break;
+      if (iteration.residual_norm() <= control.tolerance ||
+          signs_are_stable(changes, iteration.residual_norm(), before.size(), rule))
+        break;
     }
     if (level == 0) {
-      result.status = iteration.residual_norm() <= control.tolerance                  ? SolverStatus::converged
-                      : signs_are_stable(changes, iteration.vector().size(), control) ? SolverStatus::signs_stable
-                                                                                      : SolverStatus::not_converged;
+      result.status = iteration.residual_norm() <= control.tolerance ? SolverStatus::converged
+                      : signs_are_stable(changes, iteration.residual_norm(), iteration.vector().size(), control)
+                          ? SolverStatus::signs_stable
+                          : SolverStatus::not_converged;
       result.residual = iteration.residual_norm();
       result.eigenvalue = iteration.eigenvalue();
       result.steps = static_cast<std::uint32_t>(changes.size());
@@ -208,7 +214,7 @@ IterationResult conjugate_gradients(const SignedMultigrid& hierarchy, const Vect
     result.residual = std::sqrt(inner_product(r, r, threads)) / size;
     if (result.residual <= control.tolerance)
       result.status = SolverStatus::converged;
-    else if (signs_are_stable(result.sign_changes, b.size(), control))
+    else if (signs_are_stable(result.sign_changes, result.residual, b.size(), control))
       result.status = SolverStatus::signs_stable;
     if (result.status != SolverStatus::not_converged || result.steps == control.max_steps) break;
     if (control.checkpoint) control.checkpoint(static_cast<double>(result.steps) / control.max_steps);

@@ -18,6 +18,9 @@ struct IterationControl {
   /// residual stops the iteration.
   bool stop_on_stable_signs = true;
   double stable_share = 1e-5;
+  /// Signs that stand still before the far side was heard of are not settled: the residual must be below
+  /// this as well.
+  double stable_residual = 1e-2;
   double tolerance = 1e-8;       ///< of the residual
   std::uint32_t max_steps = 100; ///< on the finest level
   std::uint32_t min_steps = 2;

@@ -11,7 +11,13 @@
 namespace eigencrust {
 namespace {
 
-/// Components without a supernode: their labelled face neighbours vote; two thirds decide.
+// Fewer labelled contacts than this share of its nodes say nothing of a component.
+constexpr double least_contacts = 0.5;
+// What the outside supernode reaches by no edge at all, and is no speck, is taken for inside.
+constexpr std::uint32_t least_inside_nodes = 20;
+
+/// Components without a supernode: their labelled face neighbours vote; two thirds decide. Without enough
+/// contacts, one whose nodes are all on one side is inside: the outside is joined to the supernode.
 std::uint64_t label_free_components(const Tetrahedralization& t, const Poles& poles, const PoleGraph& graph,
                                     const Partition& partition, std::span<const std::uint32_t> component,
                                     Labels& labels) {
@@ -20,9 +26,12 @@ std::uint64_t label_free_components(const Tetrahedralization& t, const Poles& po
   if (count <= 1) return 0;
   // balance > 0: positive values of the component are outside.
   std::vector<double> balance(count, 0), total(count, 0);
+  std::vector<std::uint32_t> size(count, 0), positive(count, 0);
   const auto tetrahedron_of = [&](std::uint32_t node) { return poles.tetrahedron[graph.pole.raw()[node]]; };
   for (std::uint32_t node = 0; node < graph.pole.size(); ++node) {
     if (component[node] == 0 || partition.value[node] == 0) continue;
+    ++size[component[node]];
+    positive[component[node]] += partition.value[node] > 0;
     for (const TetrahedronIndex n : t.neighbours[tetrahedron_of(node)]) {
       if (!n.valid() || labels[n] == Label::unlabelled) continue;
       const bool agrees = (labels[n] == Label::outside) == (partition.value[node] > 0);
@@ -30,12 +39,18 @@ std::uint64_t label_free_components(const Tetrahedralization& t, const Poles& po
       total[component[node]] += 1;
     }
   }
+  for (std::uint32_t c = 1; c < count; ++c) {
+    if (total[c] >= least_contacts * size[c]) continue;
+    const bool one_sided = positive[c] == 0 || positive[c] == size[c];
+    total[c] = 1;
+    balance[c] = !one_sided || size[c] < least_inside_nodes ? 0 : positive[c] > 0 ? -1 : 1;
+  }
   std::uint64_t open = 0;
   std::vector<std::pair<TetrahedronIndex, Label>> decided;
   for (std::uint32_t node = 0; node < graph.pole.size(); ++node) {
     const std::uint32_t c = component[node];
     if (c == 0) continue;
-    if (partition.value[node] == 0 || std::fabs(balance[c]) * 3 < total[c] || total[c] == 0) {
+    if (partition.value[node] == 0 || std::fabs(balance[c]) * 3 < total[c]) {
       ++open;
       continue;
     }

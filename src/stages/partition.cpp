@@ -96,7 +96,9 @@ Partition partition_harmonic(const SignedGraph& graph, const SolverOptions& opti
   matrix.border.clear();
   matrix.corner.clear();
   const SignedMultigrid hierarchy(std::move(matrix), {}, threads);
-  const IterationResult result = conjugate_gradients(hierarchy, rhs, control_of(options, checkpoint), threads);
+  IterationControl control = control_of(options, checkpoint);
+  control.stable_residual = 1e-4; // docs/decisions/0009
+  const IterationResult result = conjugate_gradients(hierarchy, rhs, control, threads);
   Partition partition;
   take_figures(result, partition);
   partition.components = 1;

@@ -70,7 +70,7 @@ Lists samples_of_poles(const Poles& poles) {
 
 /// Opposite sides: -e^(4+4cosφ), where φ is the angle at which the two spheres through s meet.
 double opposite_weight(const Vec3& s, const Sphere& a, const Sphere& b) {
-  const double cosine = -dot(a.centre - s, b.centre - s) / (a.radius * b.radius);
+  const double cosine = -dot(a.centre - s, b.centre - s) / (norm(a.centre - s) * norm(b.centre - s));
   return -std::exp(4 + 4 * std::clamp(cosine, -1.0, 1.0));
 }
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // §3: the poles of the samples.
+#include <algorithm>
+
 #include <eigencrust/stages.h>
 
 #include "geometry/circumsphere.h"
+#include "geometry/nearest.h"
 #include "parallel/threads.h"
 
 namespace eigencrust {
@@ -48,15 +51,64 @@ TetrahedronPair pole_tetrahedra(const Vec3& s, std::span<const TetrahedronIndex>
   return pair;
 }
 
+/// The farthest pole among those of the samples `near`, and the farthest at more than 90 degrees from it.
+TetrahedronPair widest_pair(const Vec3& s, std::span<const std::uint32_t> near, std::span<const TetrahedronPair> own,
+                            const Centres& centres) {
+  TetrahedronPair pair;
+  double farthest = -1;
+  const auto for_each_pole = [&](auto&& visit) {
+    for (const std::uint32_t j : near)
+      for (const TetrahedronIndex c : {own[j].first, own[j].second})
+        if (c.valid()) visit(c, centres[c] - s);
+  };
+  const auto farther = [&](double d, TetrahedronIndex c, TetrahedronIndex best) {
+    return d > farthest || (d == farthest && c < best);
+  };
+  for_each_pole([&](TetrahedronIndex c, const Vec3& offset) {
+    const double d = squared_norm(offset);
+    if (!farther(d, c, pair.first)) return;
+    farthest = d;
+    pair.first = c;
+  });
+  const Vec3 direction = centres[pair.first] - s;
+  farthest = -1;
+  for_each_pole([&](TetrahedronIndex c, const Vec3& offset) {
+    const double d = squared_norm(offset);
+    if (!(dot(offset, direction) < 0) || !farther(d, c, pair.second)) return;
+    farthest = d;
+    pair.second = c;
+  });
+  return pair;
+}
+
+/// Replaces the pairs of samples whose reach exceeds the distance to their neighbours.
+void widen_pairs(const Tetrahedralization& t, std::span<const float> reach, const Centres& centres,
+                 std::vector<TetrahedronPair>& pairs, const Threads& threads) {
+  if (std::none_of(reach.begin(), reach.end(), [](float r) { return r > 0; })) return;
+  const PointTree tree(std::span(t.positions.raw()).first(t.sample_count));
+  const std::vector<TetrahedronPair> own = pairs;
+  for_each_index(
+      threads, t.sample_count,
+      [&](std::size_t i) {
+        if (!(reach[i] > 0)) return;
+        const Vec3& s = t.positions.raw()[i];
+        const std::vector<std::uint32_t> near = tree.within(s, static_cast<double>(reach[i]));
+        if (near.size() > 1) pairs[i] = widest_pair(s, near, own, centres);
+      },
+      512);
+}
+
 } // namespace
 
-Poles find_poles(const Tetrahedralization& t, const VertexStars& stars, const Threads& threads) {
+Poles find_poles(const Tetrahedralization& t, const VertexStars& stars, std::span<const float> reach,
+                 const Threads& threads) {
   const Centres centres = circumcentres(t, threads);
   std::vector<TetrahedronPair> pairs(t.sample_count);
   for_each_index(threads, t.sample_count, [&](std::size_t i) {
     const SampleIndex s{static_cast<std::uint32_t>(i)};
     pairs[i] = pole_tetrahedra(t.positions[s], stars[s], centres);
   });
+  if (!reach.empty()) widen_pairs(t, reach, centres, pairs, threads);
   Poles poles;
   poles.of_sample = IndexedArray<SampleIndex, PolePair>(t.sample_count);
   IndexedArray<TetrahedronIndex, PoleIndex> pole_of(t.tetrahedra.size());

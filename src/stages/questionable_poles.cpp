@@ -19,14 +19,16 @@ double squared_longest_edge(const Tetrahedralization& t, const std::array<Sample
 
 } // namespace
 
-std::vector<std::uint8_t> questionable_tetrahedra(const Tetrahedralization& t, double grid_spacing,
+std::vector<std::uint8_t> questionable_tetrahedra(const Tetrahedralization& t, std::span<const float> grid_spacing,
                                                   const Threads& threads) {
-  if (!(grid_spacing > 0)) return {};
+  if (grid_spacing.empty()) return {};
   std::vector<std::uint8_t> questionable(t.tetrahedra.size(), 0);
-  const double limit = 16 * grid_spacing * grid_spacing; // (4ℓ)²
   for_each_index(threads, questionable.size(), [&](std::size_t i) {
     const TetrahedronIndex index{static_cast<std::uint32_t>(i)};
-    questionable[i] = !t.touches_cube(index) && squared_longest_edge(t, t.tetrahedra[index]) < limit;
+    if (t.touches_cube(index)) return;
+    double limit = 0; // 4 × the mean of four
+    for (const SampleIndex s : t.tetrahedra[index]) limit += static_cast<double>(grid_spacing[s.value]);
+    questionable[i] = squared_longest_edge(t, t.tetrahedra[index]) < limit * limit;
   });
   return questionable;
 }

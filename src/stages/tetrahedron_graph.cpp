@@ -25,7 +25,7 @@ void add_ties_of_sample(const Vec3& s, const Vec3& c, const Sphere& outside, con
   const Vec3 towards = c - s;
   const double length = norm(towards);
   const auto cosine = [&](const Sphere& pole) {
-    return std::clamp(dot(pole.centre - s, towards) / (pole.radius * length), -1.0, 1.0);
+    return std::clamp(dot(pole.centre - s, towards) / (norm(pole.centre - s) * length), -1.0, 1.0);
   };
   // e^(4+4cos) is the weight of the pole graph's edges between tangent spheres (§3.1); relative to faces
   // only its shape matters, so the constant e^4 goes into the factor.
@@ -37,14 +37,15 @@ void add_ties_of_sample(const Vec3& s, const Vec3& c, const Sphere& outside, con
 /// Voronoi cell of a sample on a smooth surface every circumcentre lies on the side of one of its two
 /// poles; where the poles have opposite labels, that says on which side the tetrahedron is.
 void add_pole_ties(const Tetrahedralization& t, const Poles& poles, const Labels& labels, double factor,
-                   TetrahedronGraph& result, const Threads& threads) {
+                   std::span<const float> reach, TetrahedronGraph& result, const Threads& threads) {
   std::vector<SignedGraph::Supernode>& super = result.graph.supernodes;
   for_each_index(threads, result.tetrahedron.size(), [&](std::size_t i) {
     const auto& v = t.tetrahedra[result.tetrahedron.raw()[i]];
     const Vec3 c = circumcentre(t.positions[v[0]], t.positions[v[1]], t.positions[v[2]], t.positions[v[3]]);
     double out = 0, in = 0;
     for (const SampleIndex s : v) {
-      if (t.is_corner(s)) continue;
+      // Around a sample that is off the surface by more than the spacing, directions mean nothing.
+      if (t.is_corner(s) || (!reach.empty() && reach[s.value] > 0)) continue;
       auto [first, second] = poles.of_sample[s];
       if (!first.valid() || !second.valid()) continue;
       if (labels[poles.tetrahedron[first]] == Label::inside) std::swap(first, second);
@@ -60,7 +61,7 @@ void add_pole_ties(const Tetrahedralization& t, const Poles& poles, const Labels
 } // namespace
 
 TetrahedronGraph tetrahedron_graph(const Tetrahedralization& t, const Poles& poles, const Labels& labels,
-                                   double pole_ties, const Threads& threads) {
+                                   double pole_ties, std::span<const float> reach, const Threads& threads) {
   TetrahedronGraph result;
   std::vector<std::uint32_t> node_of(t.tetrahedra.size(), NodeIndex::none);
   for (std::uint32_t i = 0; i < t.tetrahedra.size(); ++i) {
@@ -101,7 +102,7 @@ TetrahedronGraph tetrahedron_graph(const Tetrahedralization& t, const Poles& pol
       graph.weight[at] = w;
     }
   });
-  if (pole_ties > 0) add_pole_ties(t, poles, labels, pole_ties, result, threads);
+  if (pole_ties > 0) add_pole_ties(t, poles, labels, pole_ties, reach, result, threads);
   // The one negative edge: as strong as all other edges of the supernodes together.
   double sum = 0;
   for (const SignedGraph::Supernode& super : graph.supernodes)

@@ -2,34 +2,48 @@
 # shellcheck shell=bash disable=SC2154
 # docs/parameters.md and --help name the same options and defaults.
 
-# options VERB: `--name default` per line. The default stands behind `=` or in [brackets] at the end.
+# options VERB: `--name|default|default of the preset paper` per line; empty where --help gives none. Defaults
+# stand behind `=`, or as [robust] or [robust; paper: other] at the end.
 options() {
   "$program" "$1" --help | awk '
-    function flush() { if (name != "") print name, standard; name = ""; standard = "" }
-    /^  -/ { flush()
-      for (i = 1; i <= NF; ++i) if (match($i, /--[a-z][a-z-]*/)) { name = substr($i, RSTART, RLENGTH); break }
-      if (match($0, /=[^ ]+ /)) standard = substr($0, RSTART + 1, RLENGTH - 2) }
-    match($0, /\[[^\]]*\]$/) { standard = substr($0, RSTART + 1, RLENGTH - 2); sub(/;.*/, "", standard) }
+    function flush() { if (name != "") print name "|" standard "|" paper; name = standard = paper = "" }
+    /^  -/ {
+      flush()
+      match($0, /--[a-z][a-z-]*/)
+      name = substr($0, RSTART, RLENGTH)
+      if (match($0, /=[^ ]+( |$)/)) { standard = substr($0, RSTART + 1, RLENGTH - 1); sub(/ $/, "", standard) }
+    }
+    match($0, /\[[^\]]*\]$/) {
+      standard = paper = substr($0, RSTART + 1, RLENGTH - 2)
+      if (sub(/;.*/, "", standard)) sub(/.*paper: /, "", paper)
+    }
     END { flush() }'
 }
 
+# rows PAGE: the same of the table `| option | default | paper | ...`, without the marks of the text.
+rows() {
+  awk -F ' *[|] *' '/^\| `-/ { gsub(/`/, ""); print $2 "|" $3 "|" $4 }' "$1"
+}
+
 test_every_option_is_in_the_docs() {
-  local page=$repository/docs/parameters.md name standard
-  [ -f "$page" ] || skip "docs/parameters.md is not written yet"
-  options reconstruct >options
+  local page=$repository/docs/parameters.md name standard paper row found
+  [ -f "$page" ] || skip "docs/parameters.md is not here"
+  options reconstruct | grep -v '^--help' >options
+  rows "$page" >rows
   [ "$(wc -l <options)" -ge 15 ] || die "only $(wc -l <options) options in --help"
-  while read -r name standard; do
-    case $name in --help) continue ;; esac
-    grep -qE -- "$name([^a-z-]|\$)" "$page" || die "$name is not in docs/parameters.md"
-    [ -n "$standard" ] || continue
-    grep -E -- "$name([^a-z-]|\$)" "$page" | grep -qF -- "$standard" ||
-      die "docs/parameters.md does not give $standard as the default of $name"
+  while IFS='|' read -r name standard paper; do
+    row=$(grep -E -- "$name([^a-z-]|\$)" rows) || die "$name has no row in docs/parameters.md"
+    found=$(echo "$row" | cut -d '|' -f 2)
+    [ -z "$standard" ] || equal "the default of $name in docs/parameters.md" "$found" "$standard"
+    found=$(echo "$row" | cut -d '|' -f 3)
+    [ -z "$paper" ] || equal "the default of $name for the preset paper in docs/parameters.md" "${found:-$paper}" "$paper"
   done <options
 }
 
+# Not only rows: any --word of the page.
 test_every_option_of_the_docs_exists() {
   local page=$repository/docs/parameters.md name verb
-  [ -f "$page" ] || skip "docs/parameters.md is not written yet"
+  [ -f "$page" ] || skip "docs/parameters.md is not here"
   for verb in reconstruct info check compare render demo; do "$program" "$verb" --help; done >help
   for name in $(grep -oE -- '--[a-z][a-z-]*' "$page" | sort -u); do
     grep -qE -- "$name([^a-z-]|\$)" help || die "docs/parameters.md speaks of $name, which no verb knows"

@@ -119,7 +119,7 @@ test_demo_works_from_any_folder() {
   cd "somewhere else"
   expect 0 demo -o demo
   [ ! -s err ] || die "something on stderr"
-  expect_files demo demo/teapot.ply demo/teapot.json demo/scan.png demo/teapot.png
+  expect_files demo demo/teapot.ply demo/teapot.json demo/teapot.png
   expect 0 check demo/teapot.ply
   value demo/teapot.json /mesh/genus >/dev/null || die "no report"
 }

@@ -192,7 +192,7 @@ TEST(Shapes, TwoScansThatDisagreeAreOneSphere) {
 
 // Left out before the partition, they take with them every sample that sees both sides: the graph falls
 // apart, nothing is known of the inside and no surface is left.
-TEST(Shapes, DISABLED_TwoScansThatDisagreeAreOneSphereByDefault) {
+TEST(Shapes, TwoScansThatDisagreeAreOneSphereByDefault) {
   expect_two_scans_are_one_sphere(reconstruct(two_scans(0.016)));
 }
 

@@ -157,8 +157,11 @@ TEST(LabelPoles, FreeComponentsTakeTheSideOfTheirNeighboursByFace) {
 
 TEST(Questionable, TetrahedraHaveAllEdgesBelowFourGridSpacings) {
   const Prepared p = clouds::prepare(clouds::random_box(200, 10));
-  const double spacing = 0.12;
-  const std::vector<std::uint8_t> flags = questionable_tetrahedra(p.t, spacing, Threads(2));
+  const double spacing = 0.125; // exact as a float
+  const auto everywhere = [&](double length) {
+    return std::vector<float>(p.t.positions.size(), static_cast<float>(length));
+  };
+  const std::vector<std::uint8_t> flags = questionable_tetrahedra(p.t, everywhere(spacing), Threads(2));
   ASSERT_EQ(flags.size(), p.t.tetrahedra.size());
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < flags.size(); ++i) {
@@ -171,9 +174,9 @@ TEST(Questionable, TetrahedraHaveAllEdgesBelowFourGridSpacings) {
   }
   EXPECT_GT(count, 0u);
   EXPECT_LT(count, flags.size() / 2);
-  EXPECT_TRUE(questionable_tetrahedra(p.t, 0, Threads(1)).empty());
+  EXPECT_TRUE(questionable_tetrahedra(p.t, {}, Threads(1)).empty());
   // Cube tetrahedra stay however large the spacing.
-  const auto all = questionable_tetrahedra(p.t, 1e9, Threads(1));
+  const auto all = questionable_tetrahedra(p.t, everywhere(1e9), Threads(1));
   for (std::uint32_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i] == 0, p.t.touches_cube(TetrahedronIndex{i}));
 }
 

@@ -72,14 +72,14 @@ TEST(TetrahedronGraph, EqualsItsDefinition) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const Prepared p = clouds::prepare(clouds::random_box(60, seed));
     const Labels labels = random_partial_labels(p.t, seed);
-    expect_faces(p.t, labels, tetrahedron_graph(p.t, p.poles, labels, 0, Threads(2)));
+    expect_faces(p.t, labels, tetrahedron_graph(p.t, p.poles, labels, 0, {}, Threads(2)));
   }
 }
 
 TEST(TetrahedronGraph, SupernodesRepelAsMuchAsTheyAttract) {
   const Prepared p = clouds::prepare(clouds::random_box(100, 4));
   for (const double ties : {0.0, 0.5}) {
-    const TetrahedronGraph h = tetrahedron_graph(p.t, p.poles, random_partial_labels(p.t, 5), ties, Threads(1));
+    const TetrahedronGraph h = tetrahedron_graph(p.t, p.poles, random_partial_labels(p.t, 5), ties, {}, Threads(1));
     double sum = 0;
     for (const auto& super : h.graph.supernodes)
       for (const float w : super.weight) sum += static_cast<double>(w);
@@ -92,8 +92,8 @@ TEST(TetrahedronGraph, SupernodesRepelAsMuchAsTheyAttract) {
 TEST(TetrahedronGraph, PoleTiesFollowTheirFormula) {
   const Prepared p = clouds::prepare(clouds::random_box(80, 6));
   const Labels labels = random_partial_labels(p.t, 7);
-  const TetrahedronGraph with = tetrahedron_graph(p.t, p.poles, labels, 0.25, Threads(2));
-  const TetrahedronGraph without = tetrahedron_graph(p.t, p.poles, labels, 0, Threads(2));
+  const TetrahedronGraph with = tetrahedron_graph(p.t, p.poles, labels, 0.25, {}, Threads(2));
+  const TetrahedronGraph without = tetrahedron_graph(p.t, p.poles, labels, 0, {}, Threads(2));
   EXPECT_EQ(with.graph.weight, without.graph.weight);
   int tied = 0;
   for (std::uint32_t i = 0; i < with.graph.node_count(); ++i) {
@@ -125,7 +125,7 @@ TEST(TetrahedronGraph, PoleTiesFollowTheirFormula) {
 TEST(TetrahedronGraph, OfNothingOpenIsEmpty) {
   const Prepared p = clouds::prepare(clouds::random_box(30, 8));
   const TetrahedronGraph h =
-      tetrahedron_graph(p.t, p.poles, Labels(p.t.tetrahedra.size(), Label::outside), 0.1, Threads(1));
+      tetrahedron_graph(p.t, p.poles, Labels(p.t.tetrahedra.size(), Label::outside), 0.1, {}, Threads(1));
   EXPECT_EQ(h.graph.node_count(), 0u);
   EXPECT_EQ(h.graph.supernodes.size(), 2u);
 }

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How noisy the samples are, from the samples alone (not in the paper; docs/decisions/0012).
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include <eigencrust/stages.h>
+
+#include "geometry/nearest.h"
+#include "parallel/threads.h"
+
+namespace eigencrust {
+namespace {
+
+// Neighbourhoods grow threefold in number, about 1.7-fold in radius on a surface.
+constexpr std::array<std::size_t, 6> sizes{10, 30, 90, 270, 810, 2430};
+// A neighbourhood is wider than the noise is thick when its second deviation is twice the smallest.
+constexpr double flat_ratio = 0.5;
+// Neighbourhoods that are not flat must fit so many times into the cloud.
+constexpr std::size_t least_neighbourhoods = 20;
+// One estimate stands for so many samples along the Hilbert curve.
+constexpr std::uint32_t samples_per_estimate = 64;
+constexpr std::uint32_t max_estimates = 4000;
+constexpr std::size_t smoothing_neighbours = 48;
+constexpr double smoothing_quantile = 0.75;
+
+struct Spread {
+  double thickness = 0;      ///< smallest standard deviation
+  double second = 0;         ///< second smallest
+  double squared_radius = 0; ///< sum of the two larger variances
+};
+
+Spread spread_of(std::span<const Vec3> positions, std::span<const std::uint32_t> neighbours, const Vec3& origin) {
+  Vec3 mean;
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (const std::uint32_t j : neighbours) {
+    const Vec3 d = positions[j] - origin; // relative to the query, so that nothing cancels
+    mean = mean + d;
+    const Eigen::Vector3d e(d.x, d.y, d.z);
+    moments += e * e.transpose();
+  }
+  const double n = static_cast<double>(neighbours.size());
+  const Eigen::Vector3d m(mean.x / n, mean.y / n, mean.z / n);
+  const Eigen::Vector3d variance =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments / n - m * m.transpose(), Eigen::EigenvaluesOnly)
+          .eigenvalues()
+          .cwiseMax(0.0);
+  return {std::sqrt(variance[0]), std::sqrt(variance[1]), variance[1] + variance[2]};
+}
+
+/// Thickness that does not grow with the neighbourhood is noise. Two neighbourhoods, the first one flat,
+/// are fitted by thickness² = σ² + c radius²: a crease has c > 0 and σ = 0, a smooth surface grows even
+/// faster and gives σ = 0 too.
+double noise_at(const PointTree& tree, std::span<const Vec3> positions, const Vec3& query) {
+  std::vector<std::uint32_t> index;
+  std::vector<double> square;
+  std::size_t found = 0;
+  const auto spread = [&](std::size_t level) {
+    const std::size_t wanted = sizes[level];
+    if (found < wanted && found == index.size()) {
+      index.resize(wanted);
+      square.resize(wanted);
+      found = tree.nearest(query, wanted, index.data(), square.data());
+    }
+    return spread_of(positions, std::span(index).first(std::min(wanted, found)), query);
+  };
+  Spread inner = spread(0);
+  for (std::size_t level = 0; level + 1 < sizes.size(); ++level) {
+    const Spread outer = spread(level + 1);
+    const bool is_flat = inner.thickness < flat_ratio * inner.second;
+    // A neighbourhood that makes up much of the cloud is as thick as the object, not as its noise.
+    if (!is_flat && sizes[level + 1] * least_neighbourhoods > positions.size()) return 0;
+    if (is_flat || level + 2 == sizes.size()) {
+      const double growth = outer.squared_radius - inner.squared_radius;
+      const double slope =
+          growth > 0 ? std::max(0.0, (outer.thickness * outer.thickness - inner.thickness * inner.thickness) / growth)
+                     : 0.0;
+      return std::sqrt(std::max(0.0, inner.thickness * inner.thickness - slope * inner.squared_radius));
+    }
+    inner = outer;
+  }
+  return 0;
+}
+
+double quantile(std::vector<double> values, double q) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+} // namespace
+
+IndexedArray<SampleIndex, float> noise_scale(const Samples& samples, const Threads& threads) {
+  const std::span<const Vec3> positions(samples.positions.raw());
+  const auto n = static_cast<std::uint32_t>(positions.size());
+  const std::uint32_t stride = std::max(samples_per_estimate, (n + max_estimates - 1) / max_estimates);
+  const std::uint32_t estimates = (n + stride - 1) / stride;
+  const auto representative = [&](std::size_t e) {
+    return positions[std::min<std::size_t>(n - 1, e * stride + stride / 2)];
+  };
+  std::vector<Vec3> places(estimates);
+  std::vector<double> raw(estimates), smooth(estimates);
+  const PointTree tree(positions);
+  for_each_index(
+      threads, estimates,
+      [&](std::size_t e) {
+        places[e] = representative(e);
+        raw[e] = noise_at(tree, positions, places[e]);
+      },
+      32);
+  const double typical = quantile(raw, 0.5);
+  // The median over neighbouring places: outliers and odd spots do not set the scale.
+  const PointTree coarse(places);
+  for_each_index(
+      threads, estimates,
+      [&](std::size_t e) {
+        std::array<std::uint32_t, smoothing_neighbours> index{};
+        std::array<double, smoothing_neighbours> square{};
+        const std::size_t found = coarse.nearest(places[e], smoothing_neighbours, index.data(), square.data());
+        std::vector<double> around;
+        for (std::size_t k = 0; k < found; ++k) around.push_back(raw[index[k]]);
+        smooth[e] = std::max(typical, quantile(std::move(around), smoothing_quantile));
+      },
+      256);
+  IndexedArray<SampleIndex, float> scale(n);
+  for_each_index(threads, n, [&](std::size_t i) { scale.raw()[i] = static_cast<float>(smooth[i / stride]); });
+  return scale;
+}
+
+} // namespace eigencrust
