@@ -17,6 +17,7 @@ struct Request {
   bool manifold = Options{}.manifold; // on in both presets
   std::optional<std::uint32_t> smooth;
   std::optional<double> tolerance;
+  std::optional<bool> local_noise;
   std::optional<double> min_agreement, pole_ties, recover_share;
   std::optional<std::uint32_t> max_steps;
   std::vector<std::string> outside_points, inside_points;
@@ -33,11 +34,17 @@ void add_method_options(CLI::App& app, Request& r) {
                  "robust: the measured best; paper: Kolluri, Shewchuk, O'Brien 2004 to the letter")
       ->capture_default_str();
   app.add_option("--grid-spacing", r.grid_spacing,
-                 "Diagonal of the scanner's grid squares: auto (only when scans are told apart), off, a length, N%" +
+                 "Diagonal of the scanner's grid squares: auto, off, a length, N%" +
                      defaults(to_string(robust.grid_spacing), to_string(paper.grid_spacing)));
   app.add_option("--questionable", r.questionable,
                  "Tetrahedra under 4 grid spacings lose their say before or after the first partition, or never" +
                      defaults(to_string(robust.questionable), to_string(paper.questionable)));
+  app.add_flag_callback(
+      "--local-noise", [&r] { r.local_noise = true; },
+      "Where the grid spacing is automatic and scans are not told apart: measure the noise at each sample [on; paper: "
+      "off]");
+  app.add_flag_callback(
+      "--no-local-noise", [&r] { r.local_noise = false; }, "Do not");
   app.add_option("--second-stage", r.second_stage,
                  "How unlabelled tetrahedra are settled: harmonic or eigenvector" +
                      defaults(to_string(robust.second_stage), to_string(paper.second_stage)));
@@ -80,6 +87,7 @@ void add_method_options(CLI::App& app, Request& r) {
 Options effective_options(const Request& r) {
   Options o = Options::of(parse_preset(r.preset));
   if (!r.grid_spacing.empty()) o.grid_spacing = parse_grid_spacing(r.grid_spacing);
+  if (r.local_noise) o.local_noise = *r.local_noise;
   if (!r.questionable.empty()) o.questionable = parse_questionable(r.questionable);
   if (!r.second_stage.empty()) o.second_stage = parse_second_stage(r.second_stage);
   if (!r.eigensolver.empty()) o.solver.eigensolver = parse_eigensolver(r.eigensolver);

@@ -81,6 +81,7 @@ Options Options::of(Preset preset) {
     options.questionable = Questionable::after;
     options.global_sign = GlobalSign::supernode;
     options.min_agreement = 0;
+    options.local_noise = false;
     options.pole_ties = 0;
     options.recover_share = 0;
     options.manifold_rule = ManifoldRule::paper;

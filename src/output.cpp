@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output.h"
 
-#include <numeric>
+#include <algorithm>
 
 #include <eigencrust/io.h>
 
@@ -22,11 +22,42 @@ void check_cloud(const PointCloud& cloud) {
                 "give one scan number per point");
 }
 
-void describe_input(const PointCloud& cloud, const Samples& samples, Report& report) {
+void describe_input(const PointCloud& cloud, const Samples& samples, Run& run, Report& report, const Threads& threads) {
   report.points = cloud.points.size();
   report.duplicates = samples.duplicates;
   report.nonfinite = samples.nonfinite;
   report.bounds = samples.bounds;
+  report.spacing = median_spacing(samples, cloud.points, {}, threads);
+  if (samples.fused > 0)
+    run.warn(std::to_string(samples.fused) +
+             " distinct points fell together: the cloud is too wide for double precision; remove far strays");
+}
+
+void describe_noise(const std::vector<float>& grid_spacing, Run& run) {
+  if (grid_spacing.empty()) return;
+  std::vector<float> sorted = grid_spacing;
+  for (const auto& [name, share] : {std::pair{"grid_spacing_q10", 0.1}, std::pair{"grid_spacing_median", 0.5},
+                                    std::pair{"grid_spacing_q90", 0.9}}) {
+    const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1));
+    std::nth_element(sorted.begin(), at, sorted.end());
+    run.count(name, static_cast<double>(*at));
+  }
+}
+
+void describe_labels(const FinalLabels& labels, Run& run) {
+  if (labels.supernodes_agree)
+    run.warn("the second eigenvector puts inside and outside on the same side; use --second-stage harmonic");
+}
+
+void describe_manifold(const ManifoldCounts& counts, const Labels& known, const Labels& labels, Run& run) {
+  run.count("edges_repaired", static_cast<double>(counts.edges));
+  run.count("vertices_repaired", static_cast<double>(counts.vertices));
+  run.count("tetrahedra_relabelled", static_cast<double>(counts.relabelled));
+  std::uint64_t overruled = 0;
+  for (std::size_t i = 0; i < known.size(); ++i)
+    overruled += known.raw()[i] != Label::unlabelled && known.raw()[i] != labels.raw()[i];
+  if (overruled > 0)
+    run.warn(std::to_string(overruled) + " tetrahedra named inside or outside were overruled by the manifold repair");
 }
 
 void describe_partition(const std::string& name, const SignedGraph& graph, const Partition& partition, Run& run,
@@ -58,36 +89,29 @@ void describe_pole_labels(const PoleLabels& labels, Run& run) {
   run.count("left_to_stage_two", static_cast<double>(labels.left_to_stage_two));
 }
 
-std::vector<float> grid_spacing_field(const Samples& samples, const Options& options, double global,
+std::vector<float> grid_spacing_field(const PointCloud& cloud, const Samples& samples, Report& report,
                                       const Threads& threads) {
+  const Options& options = report.options;
   if (options.questionable == Questionable::never) return {};
-  if (global > 0) return std::vector<float>(samples.positions.size() + 8, static_cast<float>(global));
-  if (options.grid_spacing.kind != GridSpacing::Kind::automatic || options.preset == Preset::paper) return {};
+  report.grid_spacing = resolve_grid_spacing(options.grid_spacing, samples, cloud.points, cloud.scan_index, threads);
+  if (report.grid_spacing > 0)
+    return std::vector<float>(samples.positions.size(), static_cast<float>(report.grid_spacing));
+  if (options.grid_spacing.kind != GridSpacing::Kind::automatic || !options.local_noise) return {};
   // Four times ℓ is the length below which a tetrahedron may be noise alone (docs/decisions/0012).
   constexpr float grid_spacing_in_deviations = 1.2f;
   std::vector<float> field = std::move(noise_scale(samples, threads).raw());
-  bool some = false;
-  for (float& value : field) {
-    value *= grid_spacing_in_deviations;
-    some = some || value > 0;
-  }
+  for (float& value : field) value *= grid_spacing_in_deviations;
+  const bool some = std::any_of(field.begin(), field.end(), [](float value) { return value > 0; });
   return some ? field : std::vector<float>{};
 }
 
 std::vector<float> reach_of(const std::vector<float>& grid_spacing, const Options& options, double spacing) {
-  if (options.preset == Preset::paper || grid_spacing.empty()) return {};
+  if (!options.local_noise || grid_spacing.empty()) return {};
   // Twice ℓ is 2.4 σ: from the middle of the noise to where it thins out on either side.
   constexpr float reach_in_grid_spacings = 2;
   std::vector<float> reach = grid_spacing;
   for (float& r : reach) r = static_cast<double>(r) < spacing ? 0 : reach_in_grid_spacings * r;
   return reach;
-}
-
-std::uint64_t count_overruled(const Labels& known, const Labels& labels) {
-  std::uint64_t count = 0;
-  for (std::size_t i = 0; i < known.size(); ++i)
-    count += known.raw()[i] != Label::unlabelled && known.raw()[i] != labels.raw()[i];
-  return count;
 }
 
 void require_surface(const Surface& surface) {

@@ -12,19 +12,21 @@ namespace eigencrust {
 
 /// \throws Error{input} when an array of the cloud has the wrong length
 void check_cloud(const PointCloud& cloud);
-void describe_input(const PointCloud& cloud, const Samples& samples, Report& report);
+/// Also measures the spacing.
+void describe_input(const PointCloud& cloud, const Samples& samples, Run& run, Report& report, const Threads& threads);
+void describe_noise(const std::vector<float>& grid_spacing, Run& run);
+void describe_labels(const FinalLabels& labels, Run& run);
+void describe_manifold(const ManifoldCounts& counts, const Labels& known, const Labels& labels, Run& run);
 void describe_partition(const std::string& name, const SignedGraph& graph, const Partition& partition, Run& run,
                         Report& report);
 void describe_pole_labels(const PoleLabels& labels, Run& run);
 
-/// ℓ of §3.3 at every sample: the one given or found for merged scans, else from the noise measured at each
-/// sample; empty where there is none.
-std::vector<float> grid_spacing_field(const Samples& samples, const Options& options, double global,
+/// ℓ of §3.3 at every sample: the one given or found for merged scans (then also report.grid_spacing), else
+/// from the noise measured at each sample; empty where there is none.
+std::vector<float> grid_spacing_field(const PointCloud& cloud, const Samples& samples, Report& report,
                                       const Threads& threads);
 /// How far each sample looks for its poles; 0 where the noise is below the spacing. Empty: nowhere.
 std::vector<float> reach_of(const std::vector<float>& grid_spacing, const Options& options, double spacing);
-/// Tetrahedra whose label is not the one known beforehand.
-std::uint64_t count_overruled(const Labels& known, const Labels& labels);
 /// \throws Error{no_surface}
 void require_surface(const Surface& surface);
 /// What the options promise and the mesh is not.

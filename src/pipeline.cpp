@@ -21,16 +21,13 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   const Threads threads(options.threads);
   Run run(report, observer);
 
-  Samples samples = run.stage("samples", [&] {
-    Samples found = prepare_samples(cloud.points, threads);
-    report.spacing = median_spacing(found, cloud.points, {}, threads);
-    report.grid_spacing = resolve_grid_spacing(options.grid_spacing, found, cloud.points, cloud.scan_index, threads);
-    return found;
-  });
-  describe_input(cloud, samples, report);
+  Samples samples = run.stage("samples", [&] { return prepare_samples(cloud.points, threads); });
+  describe_input(cloud, samples, run, report, threads);
+  // §3.3: ℓ, of the whole cloud or of each sample; how far a sample looks for its poles
   const std::vector<float> grid =
-      run.stage("noise", [&] { return grid_spacing_field(samples, options, report.grid_spacing, threads); });
+      run.stage("noise", [&] { return grid_spacing_field(cloud, samples, report, threads); });
   const std::vector<float> reach = reach_of(grid, options, report.spacing);
+  describe_noise(grid, run);
 
   // §3: S+ = samples and cube corners, T = Delaunay(S+), poles
   Tetrahedralization t = run.stage("delaunay", [&] { return tetrahedralize(std::move(samples), threads); });
@@ -74,20 +71,15 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   FinalLabels labels =
       run.stage("label_tetrahedra", [&] { return label_tetrahedra(h, second, std::move(pole_labels.labels)); });
   run.product("tetrahedra", [&] { return snapshot_of_tetrahedra(t, labels); });
-  if (labels.supernodes_agree)
-    run.warn("the second eigenvector puts inside and outside on the same side; use --second-stage harmonic");
+  describe_labels(labels, run);
 
   // §3.5, §3: manifold, surface
   if (options.manifold) {
     const auto counts = run.stage("manifold", [&] {
       return make_manifold(t, stars, poles, known, options.manifold_rule, labels, run.checkpoint());
     });
-    run.count("edges_repaired", static_cast<double>(counts.edges));
-    run.count("vertices_repaired", static_cast<double>(counts.vertices));
-    run.count("tetrahedra_relabelled", static_cast<double>(counts.relabelled));
+    describe_manifold(counts, known, labels.labels, run);
   }
-  if (const std::uint64_t overruled = count_overruled(known, labels.labels); overruled > 0)
-    run.warn(std::to_string(overruled) + " tetrahedra named inside or outside were overruled by the manifold repair");
   const auto recovered =
       run.stage("recover", [&] { return recover_samples(t, stars, known, options.recover_share, labels.labels); });
   run.count("samples", static_cast<double>(recovered));

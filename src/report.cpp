@@ -53,6 +53,7 @@ Json json_of(const Options& o) {
           {"second_stage", to_string(o.second_stage)},
           {"grid_spacing", to_string(o.grid_spacing)},
           {"questionable", to_string(o.questionable)},
+          {"local_noise", o.local_noise},
           {"global_sign", to_string(o.global_sign)},
           {"min_agreement", o.min_agreement},
           {"pole_ties", o.pole_ties},

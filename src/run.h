@@ -3,7 +3,9 @@
 /// Bookkeeping around the stages: time, memory, observer. No stage knows of it.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <exception>
 #include <string>
 #include <utility>
 
@@ -38,8 +40,10 @@ class Run {
 
   /// For a stage's inner loop: passes progress on and throws when cancelled.
   Checkpoint checkpoint() {
-    return [this, stage = report_.stages.back().name](double fraction) {
-      observer_.progress(fraction);
+    return [this, stage = report_.stages.back().name, most = 0.0](double fraction) mutable {
+      // Inner loops start again (rounds, components); what the observer sees never goes back.
+      most = std::max(most, fraction);
+      observer_.progress(most);
       throw_if_cancelled(observer_, stage);
     };
   }
@@ -48,11 +52,16 @@ class Run {
   struct Finish {
     Run& run;
     std::chrono::steady_clock::time_point start;
-    ~Finish() {
+    int exceptions = std::uncaught_exceptions();
+    ~Finish() noexcept(false) {
       StageReport& stage = run.report_.stages.back();
       stage.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       stage.peak_memory_bytes = peak_memory_bytes();
-      run.observer_.stage_ends(stage.name, stage.seconds);
+      try {
+        run.observer_.stage_ends(stage.name, stage.seconds);
+      } catch (...) {
+        if (std::uncaught_exceptions() == exceptions) throw; // else the stage's own exception goes first
+      }
     }
   };
   Report& report_;

@@ -66,6 +66,7 @@ Samples prepare_samples(std::span<const Vec3> points, const Threads& threads) {
   for (const Keyed& k : keyed) {
     if (!samples.positions.empty() && samples.positions.raw().back() == k.position) {
       ++samples.duplicates;
+      samples.fused += points[k.row] != points[samples.source.raw().back()];
       continue;
     }
     samples.positions.raw().push_back(k.position);
