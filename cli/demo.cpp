@@ -15,7 +15,10 @@ fs::path bundled_scan() {
   for (const fs::path& folder :
        {program.parent_path() / EIGENCRUST_EXAMPLES_INSTALLED, fs::path(EIGENCRUST_EXAMPLES_SOURCE)}) {
     const fs::path scan = folder / "teapot_scan.ply";
-    if (fs::is_regular_file(scan, ignored)) return scan.lexically_normal();
+    if (!fs::is_regular_file(scan, ignored)) continue;
+    // The shorter of the two names, for people to read.
+    const fs::path whole = scan.lexically_normal(), from_here = fs::proximate(whole, ignored);
+    return ignored || from_here.native().size() >= whole.native().size() ? whole : from_here;
   }
   throw Error(ErrorKind::input, "demo", "the bundled scan teapot_scan.ply was not found",
               "run it from the source tree or install the program");
