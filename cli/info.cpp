@@ -69,8 +69,8 @@ void print(const nlohmann::ordered_json& j) {
             << rounded(j["bounds"]["diagonal"].get<double>()) << "\n";
   std::cout << "  spacing (median distance to the nearest point) " << rounded(j["spacing"].get<double>()) << "\n";
   const double grid = j["grid_spacing"].get<double>();
-  std::cout << "  grid spacing "
-            << (grid > 0 ? rounded(grid) + " (from the scans)" : "off (the scans are not told apart)") << "\n";
+  std::cout << "  grid spacing of the scans "
+            << (grid > 0 ? rounded(grid) + " (from the scans)" : "not known (the scans are not told apart)") << "\n";
   if (j["attributes"].empty()) return;
   std::cout << "  attributes";
   for (const auto& a : j["attributes"])

@@ -13,7 +13,7 @@ struct Request {
   InputOptions input;
   std::string output, report, progress = "auto", dump_stages;
   std::string preset = to_string(Preset::robust);
-  std::string second_stage, eigensolver, questionable, grid_spacing, components, smoothing, facade;
+  std::string weights, second_stage, eigensolver, questionable, grid_spacing, components, smoothing, facade;
   bool manifold = Options{}.manifold; // on in both presets
   std::optional<std::uint32_t> smooth;
   std::optional<double> tolerance;
@@ -45,6 +45,9 @@ void add_method_options(CLI::App& app, Request& r) {
       "off]");
   app.add_flag_callback(
       "--no-local-noise", [&r] { r.local_noise = false; }, "Do not");
+  app.add_option("--weights", r.weights,
+                 "Pole pairs: evidence (isolated samples, which may be outliers, count little) or paper (all count)" +
+                     defaults(to_string(robust.weights), to_string(paper.weights)));
   app.add_option("--second-stage", r.second_stage,
                  "How unlabelled tetrahedra are settled: harmonic or eigenvector" +
                      defaults(to_string(robust.second_stage), to_string(paper.second_stage)));
@@ -89,6 +92,7 @@ Options effective_options(const Request& r) {
   if (!r.grid_spacing.empty()) o.grid_spacing = parse_grid_spacing(r.grid_spacing);
   if (r.local_noise) o.local_noise = *r.local_noise;
   if (!r.questionable.empty()) o.questionable = parse_questionable(r.questionable);
+  if (!r.weights.empty()) o.weights = parse_weights(r.weights);
   if (!r.second_stage.empty()) o.second_stage = parse_second_stage(r.second_stage);
   if (!r.eigensolver.empty()) o.solver.eigensolver = parse_eigensolver(r.eigensolver);
   if (r.tolerance) {

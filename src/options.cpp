@@ -16,6 +16,7 @@ template <class Value, std::size_t n>
 using Names = std::array<std::pair<Value, const char*>, n>;
 
 constexpr Names<Preset, 2> presets{{{Preset::robust, "robust"}, {Preset::paper, "paper"}}};
+constexpr Names<Weights, 2> weights_names{{{Weights::evidence, "evidence"}, {Weights::paper, "paper"}}};
 constexpr Names<Eigensolver, 2> eigensolvers{
     {{Eigensolver::multigrid, "multigrid"}, {Eigensolver::lanczos, "lanczos"}}};
 constexpr Names<SecondStage, 2> second_stages{
@@ -81,6 +82,7 @@ Options Options::of(Preset preset) {
     options.questionable = Questionable::after;
     options.global_sign = GlobalSign::supernode;
     options.min_agreement = 0;
+    options.weights = Weights::paper;
     options.local_noise = false;
     options.pole_ties = 0;
     options.recover_share = 0;
@@ -91,6 +93,7 @@ Options Options::of(Preset preset) {
 }
 
 std::string to_string(Preset value) { return name_of(presets, value); }
+std::string to_string(Weights value) { return name_of(weights_names, value); }
 std::string to_string(Eigensolver value) { return name_of(eigensolvers, value); }
 std::string to_string(SecondStage value) { return name_of(second_stages, value); }
 std::string to_string(Questionable value) { return name_of(questionables, value); }
@@ -128,6 +131,7 @@ std::string to_string(const KeepComponents& value) {
 }
 
 Preset parse_preset(const std::string& text) { return parse(presets, "preset", text); }
+Weights parse_weights(const std::string& text) { return parse(weights_names, "kind of weights", text); }
 Eigensolver parse_eigensolver(const std::string& text) { return parse(eigensolvers, "eigensolver", text); }
 SecondStage parse_second_stage(const std::string& text) { return parse(second_stages, "second stage", text); }
 Questionable parse_questionable(const std::string& text) {

@@ -94,9 +94,11 @@ std::vector<float> grid_spacing_field(const PointCloud& cloud, const Samples& sa
   const Options& options = report.options;
   if (options.questionable == Questionable::never) return {};
   report.grid_spacing = resolve_grid_spacing(options.grid_spacing, samples, cloud.points, cloud.scan_index, threads);
-  if (report.grid_spacing > 0)
-    return std::vector<float>(samples.positions.size(), static_cast<float>(report.grid_spacing));
-  if (options.grid_spacing.kind != GridSpacing::Kind::automatic || !options.local_noise) return {};
+  // What is measured at the samples replaces the one ℓ of all scans, which costs detail (docs/decisions/0012).
+  if (options.grid_spacing.kind != GridSpacing::Kind::automatic || !options.local_noise)
+    return report.grid_spacing > 0
+               ? std::vector<float>(samples.positions.size(), static_cast<float>(report.grid_spacing))
+               : std::vector<float>{};
   // Four times ℓ is the length below which a tetrahedron may be noise alone (docs/decisions/0012).
   constexpr float grid_spacing_in_deviations = 1.2f;
   std::vector<float> field = std::move(noise_scale(samples, threads).raw());
@@ -110,7 +112,9 @@ std::vector<float> reach_of(const std::vector<float>& grid_spacing, const Option
   // Twice ℓ is 2.4 σ: from the middle of the noise to where it thins out on either side.
   constexpr float reach_in_grid_spacings = 2;
   std::vector<float> reach = grid_spacing;
-  for (float& r : reach) r = static_cast<double>(r) < spacing ? 0 : reach_in_grid_spacings * r;
+  // Beyond a dozen spacings there are thousands of samples to look at, and none knows better.
+  const float farthest = 12 * static_cast<float>(spacing);
+  for (float& r : reach) r = static_cast<double>(r) < spacing ? 0 : std::min(farthest, reach_in_grid_spacings * r);
   return reach;
 }
 
@@ -118,7 +122,7 @@ void require_surface(const Surface& surface) {
   if (surface.mesh.triangles.empty())
     throw Error(
         ErrorKind::no_surface, "surface", "every tetrahedron was labelled outside",
-        "check that the points surround a volume, try --preset paper or --grid-spacing off, or name an inside point");
+        "check that the points surround a volume, take a smaller --grid-spacing or off, or name an inside point");
 }
 
 std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Options& options) {

@@ -43,8 +43,11 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   const auto questionable =
       run.stage("questionable", [&] { return questionable_tetrahedra(t, grid, threads); }); // §3.3
   const bool leave_out = options.questionable == Questionable::before;
+  const bool weigh = options.weights == Weights::evidence;
   const PoleGraph g = run.stage("pole_graph", [&] {
-    return pole_graph(t, stars, poles, known, leave_out ? questionable : std::vector<std::uint8_t>{}, threads);
+    const auto isolated = weigh ? isolated_neighbourhoods(t, stars, threads) : std::vector<float>{};
+    const auto left_out = leave_out ? std::span<const std::uint8_t>(questionable) : std::span<const std::uint8_t>{};
+    return pole_graph(t, stars, poles, known, left_out, isolated, threads);
   });
 
   // §3.2: the eigenvector of the smallest eigenvalue of L x = λ D x labels the poles

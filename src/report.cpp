@@ -45,6 +45,7 @@ Json json_of(const Options& o) {
   for (const Vec3& p : o.outside_points) points_out.push_back(json_of(p));
   for (const Vec3& p : o.inside_points) points_in.push_back(json_of(p));
   return {{"preset", to_string(o.preset)},
+          {"weights", to_string(o.weights)},
           {"eigensolver", to_string(o.solver.eigensolver)},
           {"stop_on_stable_signs", o.solver.stop_on_stable_signs},
           {"stable_share", o.solver.stable_share},

@@ -16,6 +16,11 @@ enum class Preset : std::uint8_t {
   robust, ///< the measured best
   paper   ///< Kolluri, Shewchuk and O'Brien (2004) to the letter
 };
+/// What the pole pairs of the pole graph weigh (§3.1).
+enum class Weights : std::uint8_t {
+  evidence, ///< those of isolated samples count only as far as their Voronoi cells are long
+  paper     ///< all count in full
+};
 enum class Eigensolver : std::uint8_t {
   multigrid, ///< signed aggregation multigrid: about ten steps at any size
   lanczos    ///< the reference: thousands of matrix products on large clouds
@@ -85,6 +90,8 @@ struct SolverOptions {
 struct Options {
   Preset preset = Preset::robust;
   SolverOptions solver;
+  /// docs/decisions/0013.
+  Weights weights = Weights::evidence;
   /// How unlabelled tetrahedra are settled (§3.4).
   SecondStage second_stage = SecondStage::harmonic;
   GridSpacing grid_spacing;
@@ -123,6 +130,7 @@ struct Options {
 
 // Names as the command line and the report write them.
 std::string to_string(Preset value);
+std::string to_string(Weights value);
 std::string to_string(Eigensolver value);
 std::string to_string(SecondStage value);
 std::string to_string(Questionable value);
@@ -135,6 +143,7 @@ std::string to_string(const KeepComponents& value);
 
 // The reverse. \throws Error{usage} naming the accepted values.
 Preset parse_preset(const std::string& text);
+Weights parse_weights(const std::string& text);
 Eigensolver parse_eigensolver(const std::string& text);
 SecondStage parse_second_stage(const std::string& text);
 Questionable parse_questionable(const std::string& text);

@@ -62,10 +62,17 @@ Labels known_labels(const Tetrahedralization& tetrahedralization, std::span<cons
 std::vector<std::uint8_t> questionable_tetrahedra(const Tetrahedralization& tetrahedralization,
                                                   std::span<const float> grid_spacing, const Threads& threads);
 
+/// Distance to the 20th nearest sample for samples that are isolated (their third nearest neighbour is 5 times
+/// farther than is typical), 0 for all others: those that may be outliers (not in the paper).
+std::vector<float> isolated_neighbourhoods(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
+                                           const Threads& threads);
+
 /// §3.1: the signed graph on the poles with the outside supernode (0) and, when something is known to be
-/// inside, the inside supernode (1). Poles of tetrahedra in `left_out` (may be empty) are no nodes.
+/// inside, the inside supernode (1). Poles of tetrahedra in `left_out` (may be empty) are no nodes. The pole
+/// pairs of `isolated` samples (may be empty) count only as far as their cells are long.
 PoleGraph pole_graph(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
-                     const Labels& known, std::span<const std::uint8_t> left_out, const Threads& threads);
+                     const Labels& known, std::span<const std::uint8_t> left_out, std::span<const float> isolated,
+                     const Threads& threads);
 
 /// Called now and then with the fraction done; may throw to cancel.
 using Checkpoint = std::function<void(double)>;

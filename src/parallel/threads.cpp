@@ -6,6 +6,7 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 namespace eigencrust {
@@ -58,7 +59,11 @@ struct Threads::Impl {
 Threads::Threads(unsigned count) : impl_(std::make_unique<Impl>()) {
   if (count == 0) count = std::max(1u, std::thread::hardware_concurrency());
   impl_->workers.reserve(count - 1);
-  for (unsigned i = 1; i < count; ++i) impl_->workers.emplace_back([impl = impl_.get()] { impl->work(); });
+  try {
+    for (unsigned i = 1; i < count; ++i) impl_->workers.emplace_back([impl = impl_.get()] { impl->work(); });
+  } catch (const std::system_error&) {
+    // The system gives no more threads. Results do not depend on their number, so fewer will do.
+  }
 }
 
 Threads::~Threads() {

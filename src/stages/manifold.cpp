@@ -144,7 +144,7 @@ class ManifoldRepair {
     offer_components(Label::outside, edge, best);
     for (const std::uint32_t i : best.members) flip(i);
     ++counts_.edges;
-    return true;
+    return !best.members.empty();
   }
 
   // The paper's rule.

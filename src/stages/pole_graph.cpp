@@ -74,6 +74,13 @@ double opposite_weight(const Vec3& s, const Sphere& a, const Sphere& b) {
   return -std::exp(4 + 4 * std::clamp(cosine, -1.0, 1.0));
 }
 
+/// How much an isolated sample's pole pair counts: only as far as its Voronoi cell is long compared with its
+/// neighbourhood, which an outlier's never is. At the known outside more is asked (docs/decisions/0013).
+double trust_in_isolated(double shorter_pole, double neighbourhood, bool at_outside) {
+  const double ratio = shorter_pole / neighbourhood;
+  return at_outside ? std::clamp((ratio - 1.5) / 2, 0.0, 1.0) : std::clamp(ratio - 0.7, 0.0, 1.0);
+}
+
 /// Same side: e^(4-4cosφ); 0 where the spheres do not meet.
 double same_weight(const Sphere& a, const Sphere& b) {
   const double d2 = squared_norm(a.centre - b.centre);
@@ -86,8 +93,13 @@ double same_weight(const Sphere& a, const Sphere& b) {
 class RowAssembler {
  public:
   RowAssembler(const Tetrahedralization& t, const Poles& poles, const Lists& neighbours, const Lists& samples_of,
-               const std::vector<std::uint32_t>& node_of)
-      : t_(t), poles_(poles), neighbours_(neighbours), samples_of_(samples_of), node_of_(node_of) {}
+               const std::vector<std::uint32_t>& node_of, std::span<const float> isolated)
+      : t_(t),
+        poles_(poles),
+        neighbours_(neighbours),
+        samples_of_(samples_of),
+        node_of_(node_of),
+        isolated_(isolated) {}
 
   std::vector<std::uint32_t> column;
   std::vector<float> weight;
@@ -101,9 +113,8 @@ class RowAssembler {
     for (const std::uint32_t q : candidates_) {
       while (o < opposite_.size() && opposite_[o].pole < q) ++o;
       const bool is_opposite = o < opposite_.size() && opposite_[o].pole == q;
-      const Sphere &a = poles_.sphere.raw()[p], &b = poles_.sphere.raw()[q];
-      const double w =
-          is_opposite ? opposite_weight(t_.positions[SampleIndex{opposite_[o].sample}], a, b) : same_weight(a, b);
+      const double w = is_opposite ? weight_of_pair(opposite_[o].sample, p, q)
+                                   : same_weight(poles_.sphere.raw()[p], poles_.sphere.raw()[q]);
       if (w == 0) continue;
       const std::uint32_t node = node_of_[q];
       if (node == outside_node)
@@ -127,6 +138,16 @@ class RowAssembler {
       return std::pair(a.pole, a.sample) < std::pair(b.pole, b.sample);
     }
   };
+
+  double weight_of_pair(std::uint32_t sample, std::uint32_t p, std::uint32_t q) const {
+    const Sphere &a = poles_.sphere.raw()[p], &b = poles_.sphere.raw()[q];
+    const Vec3& s = t_.positions.raw()[sample];
+    const double w = opposite_weight(s, a, b);
+    if (isolated_.empty() || !(isolated_[sample] > 0)) return w;
+    const double shorter = std::min(distance(a.centre, s), distance(b.centre, s));
+    const bool at_outside = node_of_[p] == outside_node || node_of_[q] == outside_node;
+    return w * trust_in_isolated(shorter, static_cast<double>(isolated_[sample]), at_outside);
+  }
 
   void collect(std::uint32_t p) {
     candidates_.clear();
@@ -157,6 +178,7 @@ class RowAssembler {
   const Poles& poles_;
   const Lists &neighbours_, &samples_of_;
   const std::vector<std::uint32_t>& node_of_;
+  std::span<const float> isolated_;
   std::vector<std::uint32_t> candidates_;
   std::vector<Opposite> opposite_;
   std::vector<std::pair<std::uint32_t, float>> row_;
@@ -173,7 +195,7 @@ void repel_supernodes(SignedGraph& graph) {
 } // namespace
 
 PoleGraph pole_graph(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& known,
-                     std::span<const std::uint8_t> left_out, const Threads& threads) {
+                     std::span<const std::uint8_t> left_out, std::span<const float> isolated, const Threads& threads) {
   PoleGraph result;
   std::vector<std::uint32_t> node_of(poles.tetrahedron.size(), no_node);
   for (std::uint32_t p = 0; p < poles.tetrahedron.size(); ++p) {
@@ -198,7 +220,7 @@ PoleGraph pole_graph(const Tetrahedralization& t, const VertexStars& stars, cons
   graph.supernodes.assign(supernodes, {std::vector<float>(nodes, 0.0f)});
   graph.supernode_weight.assign(supernodes, std::vector<double>(supernodes, 0.0));
   std::vector<RowAssembler> blocks((nodes + block - 1) / block,
-                                   RowAssembler(t, poles, neighbours, samples_of, node_of));
+                                   RowAssembler(t, poles, neighbours, samples_of, node_of, isolated));
   for_blocks(threads, nodes, block, [&](std::size_t first, std::size_t last, std::size_t b) {
     std::array<double, 2> super{};
     for (std::size_t i = first; i < last; ++i) {

@@ -38,6 +38,7 @@ TetrahedronPair pole_tetrahedra(const Vec3& s, std::span<const TetrahedronIndex>
       pair.first = t;
     }
   }
+  if (!pair.first.valid()) return pair; // no centre is finite
   const Vec3 direction = centres[pair.first] - s;
   farthest = -1;
   for (const TetrahedronIndex t : star) {
@@ -70,6 +71,7 @@ TetrahedronPair widest_pair(const Vec3& s, std::span<const std::uint32_t> near, 
     farthest = d;
     pair.first = c;
   });
+  if (!pair.first.valid()) return pair;
   const Vec3 direction = centres[pair.first] - s;
   farthest = -1;
   for_each_pole([&](TetrahedronIndex c, const Vec3& offset) {

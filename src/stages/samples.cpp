@@ -28,11 +28,12 @@ void check_extent(const Box3& box) {
   const double extent = box.diagonal();
   const double farthest = std::max({std::fabs(box.min.x), std::fabs(box.min.y), std::fabs(box.min.z),
                                     std::fabs(box.max.x), std::fabs(box.max.y), std::fabs(box.max.z)});
-  if (!(extent < 1e60) || farthest > 1e60)
-    throw Error(ErrorKind::input, "samples", "coordinates are larger than 1e60",
+  if (!(extent < 1e30) || farthest > 1e30)
+    throw Error(ErrorKind::input, "samples", "coordinates are larger than 1e30",
                 "remove stray rows or change the unit of the input");
-  if (extent < 1e-60)
-    throw Error(ErrorKind::input, "samples", "all finite points coincide", "give at least 5 distinct points");
+  if (extent < 1e-30)
+    throw Error(ErrorKind::input, "samples", "all finite points lie within 1e-30 of each other",
+                "give at least 5 distinct points, or change the unit of the input");
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // §3.6: Laplacian smoothing, and Taubin's variant that does not shrink.
 #include <algorithm>
+#include <numeric>
 
 #include <eigencrust/stages.h>
 
@@ -48,6 +49,26 @@ Rings rings_of(const TriangleMesh& mesh) {
   return rings;
 }
 
+/// Vertices that a step moved onto one point (the tips of a bipyramid) go back to where they were: merged by
+/// a reader they would be no manifold.
+void part_equal_vertices(std::vector<Vec3>& vertices, const std::vector<Vec3>& before) {
+  std::vector<std::uint32_t> order(vertices.size());
+  std::iota(order.begin(), order.end(), 0u);
+  for (int round = 0; round < 4; ++round) {
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return vertices[a] < vertices[b] || (vertices[a] == vertices[b] && a < b);
+    });
+    std::vector<std::uint32_t> equal;
+    for (std::size_t i = 1; i < order.size(); ++i)
+      if (vertices[order[i]] == vertices[order[i - 1]]) {
+        equal.push_back(order[i - 1]);
+        equal.push_back(order[i]);
+      }
+    if (equal.empty()) return;
+    for (const std::uint32_t v : equal) vertices[v] = before[v];
+  }
+}
+
 } // namespace
 
 void smooth(TriangleMesh& mesh, Smoothing method, std::uint32_t steps, const Threads& threads) {
@@ -63,6 +84,7 @@ void smooth(TriangleMesh& mesh, Smoothing method, std::uint32_t steps, const Thr
       moved[v] = degree == 0 ? old : old + factor * ((1.0 / static_cast<double>(degree)) * sum - old);
     });
     mesh.vertices.swap(moved);
+    part_equal_vertices(mesh.vertices, moved);
   };
   for (std::uint32_t step = 0; step < steps; ++step) {
     if (method == Smoothing::laplacian)

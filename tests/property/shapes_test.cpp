@@ -3,6 +3,8 @@
 #include <eigencrust/eigencrust.h>
 #include <gmock/gmock.h>
 
+#include <random>
+
 #include "clouds.h"
 
 namespace eigencrust {
@@ -227,6 +229,17 @@ TEST(Shapes, FacadeIsAnOpenSheet) {
     up += cross(result.mesh.vertices[b] - o, result.mesh.vertices[c] - o).z / 2;
   }
   EXPECT_GT(up, 0.8 * 3.9 * 3.9); // triangles face the front
+}
+
+TEST(Shapes, OutliersAllAroundLeaveTheSphereAlone) {
+  Points points = clouds::sphere(8000);
+  std::mt19937_64 generator(4);
+  const auto uniform = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53 - 0.5; };
+  for (int i = 0; i < 400; ++i) points.push_back({6 * uniform(), 6 * uniform(), 6 * uniform()});
+  const MeshSummary m = expect_sound(reconstructed(points));
+  expect_topology(m, 1, 0);
+  EXPECT_NEAR(m.volume / (4 * pi / 3), 1, 0.01);
+  EXPECT_GE(m.vertices, 7990u);
 }
 
 } // namespace

@@ -15,7 +15,7 @@ struct FirstStage {
   explicit FirstStage(const Points& points) : p(clouds::prepare(points)) {
     const Threads threads(1);
     known = known_labels(p.t, {}, {}, {}, threads);
-    graph = pole_graph(p.t, p.stars, p.poles, known, {}, threads);
+    graph = pole_graph(p.t, p.stars, p.poles, known, {}, {}, threads);
     partition = partition_poles(graph, {}, threads, &component);
   }
   PoleLabels labels(GlobalSign sign, double min_agreement = 0) const {

@@ -101,14 +101,14 @@ TEST(PoleGraph, EqualsTheEdgeSetOfTheDefinition) {
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
     const Prepared p = clouds::prepare(clouds::random_box(30 + 10 * seed, seed));
     const Labels known = known_of(p);
-    expect_equal(pole_graph(p.t, p.stars, p.poles, known, {}, Threads(1)), expected_graph(p, known, {}, 1));
+    expect_equal(pole_graph(p.t, p.stars, p.poles, known, {}, {}, Threads(1)), expected_graph(p, known, {}, 1));
   }
 }
 
 TEST(PoleGraph, OnASurfaceTheSupernodeRepelsTheInside) {
   const Prepared p = clouds::prepare(clouds::jittered(clouds::sphere(60), 0.02, 5));
   const Labels known = known_of(p);
-  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, Threads(1));
+  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, {}, Threads(1));
   expect_equal(g, expected_graph(p, known, {}, 1));
   double smallest = 0;
   for (const float w : g.graph.supernodes[0].weight) smallest = std::min(smallest, static_cast<double>(w));
@@ -121,10 +121,10 @@ TEST(PoleGraph, LeftOutPolesAreNoNodes) {
   clouds::Random random(7);
   std::vector<std::uint8_t> left_out(p.t.tetrahedra.size());
   for (auto& flag : left_out) flag = random.uniform() < 0.3;
-  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, left_out, Threads(1));
+  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, left_out, {}, Threads(1));
   expect_equal(g, expected_graph(p, known, left_out, 1));
   const PoleGraph none =
-      pole_graph(p.t, p.stars, p.poles, known, std::vector<std::uint8_t>(left_out.size(), 1), Threads(1));
+      pole_graph(p.t, p.stars, p.poles, known, std::vector<std::uint8_t>(left_out.size(), 1), {}, Threads(1));
   EXPECT_EQ(none.graph.node_count(), 0u);
 }
 
@@ -137,7 +137,7 @@ TEST(PoleGraph, InsidePointsMakeASecondSupernode) {
   const Vec3 middle = clouds::centroid(p.t, p.poles.tetrahedron[pole]) + p.t.origin;
   const Labels known = known_of(p, {middle});
   ASSERT_EQ(known[p.poles.tetrahedron[pole]], Label::inside);
-  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, Threads(1));
+  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, {}, Threads(1));
   expect_equal(g, expected_graph(p, known, {}, 2));
   double sum = 0;
   for (const auto& super : g.graph.supernodes)
@@ -151,7 +151,7 @@ TEST(PoleGraph, WeightsStayWithinTheirRanges) {
   // A lattice has poles shared by many samples and spheres that touch: cosines at their limits.
   for (const Points& points : {clouds::lattice(4, 4, 4), clouds::sphere(200), clouds::random_box(200, 9)}) {
     const Prepared p = clouds::prepare(points);
-    const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known_of(p), {}, Threads(1));
+    const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known_of(p), {}, {}, Threads(1));
     for (const float w : g.graph.weight) {
       const double size = std::fabs(static_cast<double>(w));
       EXPECT_LE(size, std::exp(8.0) * (1 + 1e-6));
@@ -164,7 +164,7 @@ TEST(PoleGraph, IsSymmetricAndTheSameForAnyThreads) {
   const Points points = clouds::random_box(1500, 10); // several blocks of nodes
   const Prepared p = clouds::prepare(points);
   const Labels known = known_of(p);
-  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, Threads(1));
+  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, {}, Threads(1));
   std::map<Pair, float> entries;
   for (std::uint32_t i = 0; i < g.graph.node_count(); ++i)
     for (std::uint64_t k = g.graph.row_begin[i]; k < g.graph.row_begin[i + 1]; ++k)
@@ -174,7 +174,7 @@ TEST(PoleGraph, IsSymmetricAndTheSameForAnyThreads) {
     EXPECT_EQ(w, entries.at({ends.second, ends.first}));
   }
   for (const unsigned threads : {2u, 3u}) {
-    const PoleGraph other = pole_graph(p.t, p.stars, p.poles, known, {}, Threads(threads));
+    const PoleGraph other = pole_graph(p.t, p.stars, p.poles, known, {}, {}, Threads(threads));
     EXPECT_EQ(other.graph.row_begin, g.graph.row_begin);
     EXPECT_EQ(other.graph.column, g.graph.column);
     EXPECT_EQ(other.graph.weight, g.graph.weight);
