@@ -41,8 +41,7 @@ void add_method_options(CLI::App& app, Request& r) {
                      defaults(to_string(robust.questionable), to_string(paper.questionable)));
   app.add_flag_callback(
       "--local-noise", [&r] { r.local_noise = true; },
-      "Where the grid spacing is automatic and scans are not told apart: measure the noise at each sample [on; paper: "
-      "off]");
+      "Where the grid spacing is automatic: take it from the noise measured at each sample [on; paper: off]");
   app.add_flag_callback(
       "--no-local-noise", [&r] { r.local_noise = false; }, "Do not");
   app.add_option("--weights", r.weights,

@@ -21,8 +21,8 @@ void describe_partition(const std::string& name, const SignedGraph& graph, const
                         Report& report);
 void describe_pole_labels(const PoleLabels& labels, Run& run);
 
-/// ℓ of §3.3 at every sample: the one given or found for merged scans (then also report.grid_spacing), else
-/// from the noise measured at each sample; empty where there is none.
+/// ℓ of §3.3 at every sample: the one given, else from the noise measured at each sample or, without
+/// local_noise, the one of merged scans; empty where there is none. Sets report.grid_spacing.
 std::vector<float> grid_spacing_field(const PointCloud& cloud, const Samples& samples, Report& report,
                                       const Threads& threads);
 /// How far each sample looks for its poles; 0 where the noise is below the spacing. Empty: nowhere.

@@ -96,7 +96,7 @@ struct Options {
   SecondStage second_stage = SecondStage::harmonic;
   GridSpacing grid_spacing;
   Questionable questionable = Questionable::before;
-  /// Where grid_spacing is automatic and scans are not told apart: take ℓ at each sample from the noise
+  /// Where grid_spacing is automatic: take ℓ at each sample from the noise
   /// measured there, and let noisy samples look beyond it for their poles. docs/decisions/0012.
   bool local_noise = true;
   /// How inside is told from outside once the two sides are apart (§3.2).

@@ -109,7 +109,8 @@ IndexedArray<SampleIndex, float> noise_scale(const Samples& samples, const Threa
       },
       32);
   const double typical = quantile(raw, 0.5);
-  // The median over neighbouring places: outliers and odd spots do not set the scale.
+  // The upper quartile over neighbouring places: curved spots, where nothing is told from curvature, must
+  // not read as free of noise, and outliers must not set the scale.
   const PointTree coarse(places);
   for_each_index(
       threads, estimates,
