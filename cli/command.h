@@ -24,6 +24,8 @@ struct Arguments {
 
 // One function per verb. \return the exit status; errors are thrown
 int reconstruct_verb(const Arguments& arguments);
+int orient_verb(const Arguments& arguments);
+int classify_verb(const Arguments& arguments);
 int info_verb(const Arguments& arguments);
 int check_verb(const Arguments& arguments);
 int compare_verb(const Arguments& arguments);
@@ -41,11 +43,13 @@ Parsed parse(CLI::App& app, const Arguments& arguments);
 /// Several inputs are several scans of one scene.
 struct InputOptions {
   std::vector<std::string> paths;
-  std::string columns, scan_index;
+  std::string columns, scan_index, pcd_viewpoint = "auto";
 };
 void add_input_options(CLI::App& app, InputOptions& options);
 /// Reads and merges; fills files with path, hash and count.
-PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& files);
+/// \param notes if given, gets what each file's reader had to say
+PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& files,
+                       std::vector<std::vector<std::string>>* notes = nullptr);
 
 /// Progress on stderr. `mode` is auto, bar, jsonl or off; auto shows a bar on a terminal.
 std::unique_ptr<Observer> make_observer(const std::string& mode, const std::filesystem::path& dump_folder, bool quiet);

@@ -37,6 +37,12 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
+PcdViewpoint viewpoint_of(const std::string& name) {
+  if (name == "sensor") return PcdViewpoint::sensor;
+  if (name == "pose") return PcdViewpoint::pose;
+  return name == "none" ? PcdViewpoint::none : PcdViewpoint::automatic;
+}
+
 } // namespace
 
 void catch_interrupts() {
@@ -60,19 +66,27 @@ Parsed parse(CLI::App& app, const Arguments& arguments) {
 
 void add_input_options(CLI::App& app, InputOptions& options) {
   app.add_option("INPUT", options.paths,
-                 "Point clouds (ply xyz txt asc csv pts obj off stl); several are several scans")
+                 "Point clouds (ply e57 ptx pcd pts xyz txt asc csv obj off stl); several are several scans")
       ->required();
   app.add_option("--columns", options.columns,
                  "Names of a text file's columns in order, e.g. x,y,z,red,green,blue; - skips one");
   app.add_option("--scan-index", options.scan_index,
                  "Scan number of each point of one file that holds several scans: bytes (.u8) or one number per line");
+  app.add_option("--pcd-viewpoint", options.pcd_viewpoint,
+                 "VIEWPOINT of PCD files: auto (sensor unless 0 0 0), sensor (its position), pose (also moves the "
+                 "points) or none")
+      ->check(CLI::IsMember({"auto", "sensor", "pose", "none"}))
+      ->capture_default_str();
 }
 
-PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& files) {
-  const ReadOptions read_options{split(options.columns)};
+PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& files,
+                       std::vector<std::vector<std::string>>* notes) {
+  const ReadOptions read_options{split(options.columns), viewpoint_of(options.pcd_viewpoint)};
   PointCloud cloud;
   for (const std::string& path : options.paths) {
-    PointCloud next = read_point_cloud(path, read_options);
+    std::vector<std::string> said;
+    PointCloud next = read_point_cloud(path, read_options, &said);
+    if (notes != nullptr) notes->push_back(std::move(said));
     files.push_back({path, sha256_of_file(path), next.points.size()});
     if (files.size() == 1)
       cloud = std::move(next);

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -31,14 +34,39 @@ const char* name_of(ScalarType type) {
   return "?";
 }
 
-nlohmann::ordered_json collect(const PointCloud& cloud, const std::vector<InputFile>& files, const Threads& threads) {
+using Notes = std::vector<std::vector<std::string>>;
+
+constexpr std::size_t most_sensors = 1000; ///< listed one by one
+
+void collect_sensors(const PointCloud& cloud, nlohmann::ordered_json& json) {
+  std::vector<std::uint64_t> seen(cloud.sensors.size(), 0);
+  std::uint64_t without = cloud.sensor_of.empty() ? cloud.points.size() : 0;
+  for (const std::uint32_t sensor : cloud.sensor_of)
+    if (sensor == PointCloud::no_sensor)
+      ++without;
+    else
+      ++seen[sensor];
+  json["sensor_count"] = cloud.sensors.size();
+  json["points_without_sensor"] = without;
+  json["sensors"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < std::min(most_sensors, cloud.sensors.size()); ++i) {
+    const Sensor& s = cloud.sensors[i];
+    json["sensors"].push_back(
+        {{s.at_infinity ? "direction" : "position", {s.place.x, s.place.y, s.place.z}}, {"points", seen[i]}});
+  }
+}
+
+nlohmann::ordered_json collect(const PointCloud& cloud, const std::vector<InputFile>& files, const Notes& notes,
+                               const Threads& threads) {
   nlohmann::ordered_json json;
-  for (const InputFile& f : files)
-    json["files"].push_back({{"path", f.path}, {"sha256", f.sha256}, {"points", f.points}});
+  for (std::size_t i = 0; i < files.size(); ++i)
+    json["files"].push_back(
+        {{"path", files[i].path}, {"sha256", files[i].sha256}, {"points", files[i].points}, {"notes", notes[i]}});
   json["points"] = cloud.points.size();
   std::uint32_t scans = cloud.points.empty() ? 0 : 1;
   for (const std::uint32_t scan : cloud.scan_index) scans = std::max(scans, scan + 1);
   json["scans"] = scans;
+  collect_sensors(cloud, json);
   json["attributes"] = nlohmann::ordered_json::array();
   for (const Attribute& a : cloud.attributes)
     json["attributes"].push_back({{"name", a.name}, {"type", name_of(a.type)}, {"list", a.is_list}});
@@ -59,9 +87,39 @@ std::string show(const nlohmann::ordered_json& v) {
          ")";
 }
 
+/// With the digits that tell places far from the origin apart.
+std::string show_place(const nlohmann::ordered_json& v) {
+  std::array<char, 100> text{};
+  std::snprintf(text.data(), text.size(), "(%.10g, %.10g, %.10g)", v[0].get<double>(), v[1].get<double>(),
+                v[2].get<double>());
+  return text.data();
+}
+
+void print_sensors(const nlohmann::ordered_json& j) {
+  constexpr std::size_t most_printed = 10;
+  const auto count = j["sensor_count"].get<std::uint64_t>(), without = j["points_without_sensor"].get<std::uint64_t>();
+  if (count == 0) {
+    std::cout << "  sensors: none known\n";
+    return;
+  }
+  std::cout << "  sensors: " << grouped(count);
+  const auto& sensors = j["sensors"];
+  for (std::size_t i = 0; i < std::min(most_printed, sensors.size()); ++i) {
+    const bool at_infinity = sensors[i].contains("direction");
+    std::cout << (i == 0 ? " at " : ", ")
+              << (at_infinity ? "infinity along " + show_place(sensors[i]["direction"])
+                              : show_place(sensors[i]["position"]));
+  }
+  if (count > most_printed) std::cout << ", ...";
+  if (without > 0) std::cout << "; " << grouped(without) << " points without";
+  std::cout << "\n";
+}
+
 void print(const nlohmann::ordered_json& j) {
-  for (const auto& f : j["files"])
+  for (const auto& f : j["files"]) {
     std::cout << f["path"].get<std::string>() << ": " << grouped(f["points"].get<std::uint64_t>()) << " points\n";
+    for (const auto& note : f["notes"]) std::cout << "  " << note.get<std::string>() << "\n";
+  }
   std::cout << "  distinct " << grouped(j["distinct"].get<std::uint64_t>()) << ", duplicates "
             << grouped(j["duplicates"].get<std::uint64_t>()) << ", not finite "
             << grouped(j["nonfinite"].get<std::uint64_t>()) << ", scans " << j["scans"] << "\n";
@@ -71,6 +129,7 @@ void print(const nlohmann::ordered_json& j) {
   const double grid = j["grid_spacing"].get<double>();
   std::cout << "  grid spacing of the scans "
             << (grid > 0 ? rounded(grid) + " (from the scans)" : "not known (the scans are not told apart)") << "\n";
+  print_sensors(j);
   if (j["attributes"].empty()) return;
   std::cout << "  attributes";
   for (const auto& a : j["attributes"])
@@ -91,9 +150,10 @@ int info_verb(const Arguments& arguments) {
   app.add_option("--threads", threads, "Threads, 0 for all cores")->capture_default_str();
   if (const Parsed parsed = parse(app, arguments); parsed.done) return parsed.status;
   std::vector<InputFile> files;
-  const PointCloud cloud = read_inputs(input, files);
+  Notes notes;
+  const PointCloud cloud = read_inputs(input, files, &notes);
   const Threads team(threads);
-  const nlohmann::ordered_json figures = collect(cloud, files, team);
+  const nlohmann::ordered_json figures = collect(cloud, files, notes, team);
   if (json)
     std::cout << figures.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
   else

@@ -20,6 +20,8 @@ constexpr const char* overview =
 
 Verbs (eigencrust VERB --help for the options of each):
   reconstruct INPUT... -o MESH   point clouds to a closed mesh; what happens without a verb
+  orient INPUT... -o CLOUD       the cloud with normals that look outward
+  classify INPUT... -o CLOUD     the cloud with a flag for inliers, and how sure that is
   info INPUT...                  what is in a cloud: counts, bounds, spacing, duplicates
   check MESH                     closed? manifold? oriented? genus, volume, self-intersections
   compare MESH REFERENCE         distances both ways, F-score, volume IoU
@@ -37,9 +39,14 @@ int fail(const std::string& message, ErrorKind kind) {
 }
 
 int run(const cli::Arguments& all) {
-  static const std::map<std::string, int (*)(const cli::Arguments&)> verbs{
-      {"reconstruct", cli::reconstruct_verb}, {"info", cli::info_verb},     {"check", cli::check_verb},
-      {"compare", cli::compare_verb},         {"render", cli::render_verb}, {"demo", cli::demo_verb}};
+  static const std::map<std::string, int (*)(const cli::Arguments&)> verbs{{"reconstruct", cli::reconstruct_verb},
+                                                                           {"orient", cli::orient_verb},
+                                                                           {"classify", cli::classify_verb},
+                                                                           {"info", cli::info_verb},
+                                                                           {"check", cli::check_verb},
+                                                                           {"compare", cli::compare_verb},
+                                                                           {"render", cli::render_verb},
+                                                                           {"demo", cli::demo_verb}};
   if (all.words.empty()) {
     std::cerr << overview;
     return static_cast<int>(ErrorKind::usage);

@@ -2,10 +2,34 @@
 #include "output.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <eigencrust/io.h>
 
 namespace eigencrust {
+namespace {
+
+void check_sensors(const PointCloud& cloud) {
+  if (!cloud.sensor_of.empty() && cloud.sensor_of.size() != cloud.points.size())
+    throw Error(ErrorKind::input, "input",
+                "the sensor index has " + std::to_string(cloud.sensor_of.size()) + " entries for " +
+                    std::to_string(cloud.points.size()) + " points",
+                "give one sensor number per point");
+  for (const std::uint32_t sensor : cloud.sensor_of)
+    if (sensor != PointCloud::no_sensor && sensor >= cloud.sensors.size())
+      throw Error(ErrorKind::input, "input",
+                  "a point names sensor " + std::to_string(sensor) + " of " + std::to_string(cloud.sensors.size()),
+                  "number the sensors from 0, or say no_sensor");
+  for (const Sensor& sensor : cloud.sensors) {
+    if (!is_finite(sensor.place))
+      throw Error(ErrorKind::input, "input", "the place of a sensor is not finite", "give finite coordinates");
+    if (sensor.at_infinity && std::abs(norm(sensor.place) - 1) > 1e-6)
+      throw Error(ErrorKind::input, "input", "the direction of a sensor at infinity is no unit vector",
+                  "divide it by its length");
+  }
+}
+
+} // namespace
 
 void check_cloud(const PointCloud& cloud) {
   const std::size_t n = cloud.points.size();
@@ -20,6 +44,7 @@ void check_cloud(const PointCloud& cloud) {
                 "the scan index has " + std::to_string(cloud.scan_index.size()) + " entries for " + std::to_string(n) +
                     " points",
                 "give one scan number per point");
+  check_sensors(cloud);
 }
 
 void describe_input(const PointCloud& cloud, const Samples& samples, Run& run, Report& report, const Threads& threads) {

@@ -6,6 +6,7 @@
 
 #include "output.h"
 #include "parallel/threads.h"
+#include "point_results.h"
 #include "run.h"
 #include "snapshots.h"
 
@@ -91,6 +92,10 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   report.dropped_components =
       run.stage("components", [&] { return filter_components(surface, options.components, t, stars); });
   require_surface(surface);
+  if (options.point_results) {
+    run.stage("points", [&] { add_point_results(cloud, t, surface, grid, threads, result); });
+    run.count("inliers", static_cast<double>(std::count(result.inlier.begin(), result.inlier.end(), 1)));
+  }
   if (options.smooth > 0) // §3.6
     run.stage("smoothing", [&] { smooth(surface.mesh, options.smoothing, options.smooth, threads); });
 

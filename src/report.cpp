@@ -67,6 +67,7 @@ Json json_of(const Options& o) {
           {"outside_points", std::move(points_out)},
           {"inside_points", std::move(points_in)},
           {"facade", o.facade ? Json(to_string(*o.facade)) : Json()},
+          {"point_results", o.point_results},
           {"threads", o.threads}};
 }
 

@@ -21,6 +21,10 @@ struct Result {
   Report report;
   Tetrahedralization tetrahedralization;
   Labels labels; ///< of every tetrahedron, as the surface was taken from them
+  // With options.point_results one entry per input row (duplicates have that of their first row), else empty:
+  std::vector<std::uint8_t> inlier; ///< 1: the row is a sample of the surface; 0 for rows that are not finite
+  std::vector<float> confidence;    ///< in [0, 1], at least 0.5 for inliers; 0 for rows that are not finite
+  std::vector<Vec3> normals;        ///< unit, outward (before smoothing); NaN for rows that are no inliers
 };
 
 /// Reconstructs the surface that `cloud` was sampled from.

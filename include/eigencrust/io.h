@@ -14,20 +14,35 @@
 
 namespace eigencrust {
 
+/// What VIEWPOINT in a PCD file means: programs write the scanner's pose there, but some store points that
+/// are already in world coordinates (the documented use), others points still to be moved by it.
+enum class PcdViewpoint : std::uint8_t {
+  automatic, ///< the sensor's position unless it is 0 0 0, the default of writers that know none; points stay
+  sensor,    ///< the sensor's position, even at 0 0 0; points stay
+  pose,      ///< points and normals are rotated and moved by it; its translation is the sensor's position
+  none       ///< nothing
+};
+
 struct ReadOptions {
   /// Names of the columns of a text file in order ("x", "y", "z", any other name keeps that column as
   /// an attribute, "-" skips it). Empty: from the header line, else x y z and the rest as columns.
-  std::vector<std::string> columns;
+  std::vector<std::string> columns{};
+  PcdViewpoint pcd_viewpoint = PcdViewpoint::automatic;
 };
 
-/// Reads a point cloud. The format follows the extension (ply, xyz, txt, asc, csv, pts, obj, off,
-/// stl; upper case too), and the content where the extension says nothing. From a mesh its vertices are
-/// taken, those of an STL once per distinct position.
-/// Text numbers are read independently of the locale. NaN and infinite rows are kept.
+/// Reads a point cloud. Formats with a signature of their own (ply, e57, pcd, ptx, off) are known by
+/// it; otherwise the format follows the extension (xyz, txt, asc, csv, pts, obj, stl; upper case too),
+/// and the content where the extension says nothing. From a mesh its vertices are taken, those of an
+/// STL once per distinct position.
+/// Text numbers are read independently of the locale. NaN and infinite rows are kept; rows that a
+/// scanner marked as empty (ptx, e57) are not.
+/// Sensors are taken from the poses of e57 and ptx scans and from the VIEWPOINT of a pcd file.
+/// \param notes if given, gets a sentence for each thing that was dropped or could be read in two ways
 /// \throws Error{input} naming file and line (text) or byte offset (binary) when the file is missing,
 ///         truncated, malformed or of an unknown format; memory is never allocated by a count that the
 ///         file claims but does not hold.
-PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options = {});
+PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options = {},
+                            std::vector<std::string>* notes = nullptr);
 
 /// Reads a mesh (ply, obj, off, stl); polygons are split into triangle fans. STL corners with equal
 /// coordinates become one vertex.
@@ -36,7 +51,8 @@ TriangleMesh read_mesh(const std::filesystem::path& path);
 
 /// Appends `next` to `cloud` as one more scan: scan indices are shifted so that scans stay apart (a
 /// cloud without scan index counts as one scan). Attributes are joined by name; rows of a file that
-/// lacks one get NaN (floating point) or 0; differing types are widened to one that holds both.
+/// lacks one get NaN (floating point) or 0; differing types are widened to one that holds both. Sensors
+/// are put behind one another.
 void append_scan(PointCloud& cloud, PointCloud next);
 
 /// Scan numbers from a file: raw bytes (.u8), or text with one number per row.

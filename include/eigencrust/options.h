@@ -121,6 +121,9 @@ struct Options {
   std::vector<Vec3> outside_points, inside_points;
   /// One-sided scan: outside is in front, along this direction (§3.1). The result is then open.
   std::optional<Axis> facade;
+  /// Also say of every input row whether it belongs to the surface, and its normal: Result::inlier,
+  /// confidence and normals.
+  bool point_results = false;
   /// Threads; 0: one per core. The result does not depend on it.
   unsigned threads = 0;
 

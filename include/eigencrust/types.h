@@ -124,12 +124,25 @@ struct Attribute {
   }
 };
 
+/// Where a scanner stood when it saw some of the points.
+struct Sensor {
+  Vec3 place;               ///< position in input coordinates; at infinity the unit direction surface -> scanner
+  bool at_infinity = false; ///< parallel rays: there is a direction, but no position
+
+  friend constexpr auto operator<=>(const Sensor&, const Sensor&) = default;
+};
+
 /// Unorganized points with whatever the files said of them.
-/// Invariants: every attribute has points.size() rows; scan_index is empty or has points.size() entries.
+/// Invariants: every attribute has points.size() rows; scan_index is empty or has points.size() entries;
+/// so has sensor_of, and each entry is below sensors.size() or no_sensor; places are finite.
 struct PointCloud {
+  static constexpr std::uint32_t no_sensor = 0xffffffff;
+
   std::vector<Vec3> points; ///< n rows in input order; may hold NaN, infinities and duplicates
   std::vector<Attribute> attributes;
-  std::vector<std::uint32_t> scan_index; ///< which scan each point came from; empty: one scan, or unknown
+  std::vector<std::uint32_t> scan_index;  ///< which scan each point came from; empty: one scan, or unknown
+  std::vector<Sensor> sensors{};          ///< in the order of the files; equal ones may occur
+  std::vector<std::uint32_t> sensor_of{}; ///< which sensor saw each point; empty: none is known
 };
 
 /// Indexed triangles; counter-clockwise seen from outside. Indices are 0-based into vertices.

@@ -8,6 +8,7 @@
 #include <eigencrust/error.h>
 #include <eigencrust/io.h>
 
+#include "io/pose.h"
 #include "io/scalar.h"
 #include "io/text.h"
 
@@ -216,12 +217,17 @@ void append_scan(PointCloud& cloud, PointCloud next) {
     cloud = std::move(next);
     return;
   }
-  append_attributes(cloud, next);
   append_scan_index(cloud, next);
-  cloud.points.insert(cloud.points.end(), next.points.begin(), next.points.end());
+  io::append_rows(cloud, std::move(next));
 }
 
 namespace io {
+
+void append_rows(PointCloud& cloud, PointCloud next) {
+  append_attributes(cloud, next);
+  append_sensors(cloud, next);
+  cloud.points.insert(cloud.points.end(), next.points.begin(), next.points.end());
+}
 
 std::string UniqueNames::operator()(const std::string& name) {
   if (taken_.insert(name).second) return name;

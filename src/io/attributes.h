@@ -26,6 +26,9 @@ class UniqueNames {
   std::map<std::string, std::uint64_t> last_suffix_; ///< so that many equal names take no quadratic time
 };
 
+/// append_scan without the scan numbers.
+void append_rows(PointCloud& cloud, PointCloud next);
+
 /// Colours as 0..1 (or 0..255 where a value exceeds 1 and all are whole): stored as uint8 where that
 /// loses nothing, i.e. every value is a multiple of 1/255 up to three printed digits; else as float32.
 /// \param rgb n × channels values, row after row; named red, green, blue, alpha

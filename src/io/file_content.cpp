@@ -54,6 +54,11 @@ FileContent::FileContent(const std::filesystem::path& path) : name_(path.string(
   }
 }
 
+FileContent::FileContent(std::string name, std::string_view bytes)
+    : name_(std::move(name)), data_(std::make_unique_for_overwrite<char[]>(bytes.size())), size_(bytes.size()) {
+  std::copy(bytes.begin(), bytes.end(), data_.get());
+}
+
 void FileContent::fail_at_line(std::uint64_t line, const std::string& cause, const std::string& remedy) const {
   throw Error(ErrorKind::input, name_ + ":" + std::to_string(line), cause, remedy);
 }

@@ -18,6 +18,9 @@ class FileContent {
   /// Reads until the end, so that pipes work too. \throws Error{input} when the file cannot be read.
   explicit FileContent(const std::filesystem::path& path);
 
+  /// A file that is in memory already; `name` is for messages and for its extension.
+  FileContent(std::string name, std::string_view bytes);
+
   [[nodiscard]] std::string_view bytes() const { return {data_.get(), size_}; }
   /// As the user wrote it: for messages.
   [[nodiscard]] const std::string& name() const { return name_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The readers and writers of the single formats. Only registry.cpp calls them.
+/// A reader that drops something, or could read it in two ways, says so in a sentence of `notes`.
 #pragma once
 
 #include <ostream>
@@ -20,9 +21,20 @@ PointCloud read_xyz(const FileContent& file, const ReadOptions& options);
 /// rows that begin with d, s or g (Hoppe's point files).
 PointCloud read_lettered_xyz(const FileContent& file, const ReadOptions& options);
 PointCloud read_pts(const FileContent& file, const ReadOptions& options);
+PointCloud read_e57(const FileContent& file, std::vector<std::string>& notes);
+PointCloud read_ptx(const FileContent& file, std::vector<std::string>& notes);
+PointCloud read_pcd(const FileContent& file, const ReadOptions& options, std::vector<std::string>& notes);
 TriangleMesh read_obj(const FileContent& file);
 TriangleMesh read_off(const FileContent& file);
 TriangleMesh read_stl(const FileContent& file);
+
+// Whether the file begins as no other format does.
+bool looks_like_ptx(const FileContent& file);
+bool looks_like_pcd(const FileContent& file);
+
+/// What read_point_cloud and read_mesh do, once the bytes are there; the name's extension counts.
+PointCloud read_cloud(const FileContent& file, const ReadOptions& options, std::vector<std::string>& notes);
+TriangleMesh read_mesh(const FileContent& file);
 
 // Writers. They check and choose first (prepare), so that nothing is created in vain, and leave what
 // they chose in `result`.

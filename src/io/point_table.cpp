@@ -81,6 +81,12 @@ void PointTable::add_row(const Fields& fields, const LineScanner& lines) {
   points_.push_back({point[0], point[1], point[2]});
 }
 
+void PointTable::drop_last_row() {
+  points_.pop_back();
+  for (Column& column : columns_)
+    if (column.values.size() > points_.size()) column.values.pop_back();
+}
+
 PointCloud PointTable::finish(bool integer_intensity) {
   PointCloud cloud;
   const std::size_t rows = points_.size();

@@ -25,6 +25,10 @@ class PointTable {
   /// \throws Error{input} at the current line when a field is missing, surplus or no number
   void add_row(const Fields& fields, const LineScanner& lines);
 
+  /// Takes the row added last away again: it turned out to be none.
+  void drop_last_row();
+  [[nodiscard]] const Vec3& last_point() const { return points_.back(); }
+
   [[nodiscard]] std::size_t rows() const { return points_.size(); }
   /// Number of fields of a row; 0 before the first layout.
   [[nodiscard]] std::size_t fields() const { return targets_.size(); }

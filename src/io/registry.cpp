@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The only place that knows which extension means which format.
+// The only place that knows which extension, and which content, means which format.
 #include <algorithm>
 #include <array>
 #include <new>
@@ -18,7 +18,8 @@ namespace {
 using io::Body;
 using io::FileContent;
 
-using CloudReader = PointCloud (*)(const FileContent&, const ReadOptions&);
+using Notes = std::vector<std::string>;
+using CloudReader = PointCloud (*)(const FileContent&, const ReadOptions&, Notes&);
 using MeshReader = TriangleMesh (*)(const FileContent&);
 using MeshWriter = Body (*)(const TriangleMesh&, const WriteOptions&, WriteResult&);
 using CloudWriter = Body (*)(const PointCloud&, const WriteOptions&, WriteResult&);
@@ -31,11 +32,23 @@ struct Format {
   CloudWriter write_cloud = nullptr;
 };
 
-PointCloud read_ply_points(const FileContent& file, const ReadOptions&) { return io::read_ply_cloud(file); }
+PointCloud read_ply_points(const FileContent& file, const ReadOptions&, Notes&) { return io::read_ply_cloud(file); }
+PointCloud read_e57_points(const FileContent& file, const ReadOptions&, Notes& notes) {
+  return io::read_e57(file, notes);
+}
+PointCloud read_ptx_points(const FileContent& file, const ReadOptions&, Notes& notes) {
+  return io::read_ptx(file, notes);
+}
+
+/// Rows of text.
+template <PointCloud (*read)(const FileContent&, const ReadOptions&)>
+PointCloud read_rows(const FileContent& file, const ReadOptions& options, Notes&) {
+  return read(file, options);
+}
 
 /// The vertices of a mesh.
 template <MeshReader read>
-PointCloud read_vertices(const FileContent& file, const ReadOptions&) {
+PointCloud read_vertices(const FileContent& file, const ReadOptions&, Notes&) {
   TriangleMesh mesh = read(file);
   PointCloud cloud;
   cloud.points = std::move(mesh.vertices);
@@ -48,13 +61,16 @@ Body write_rows(const PointCloud& cloud, const WriteOptions& options, WriteResul
   return io::prepare_xyz(cloud, options, separator, result);
 }
 
-constexpr std::array<Format, 9> formats = {{
+constexpr std::array<Format, 12> formats = {{
     {"ply", read_ply_points, io::read_ply_mesh, io::prepare_ply, io::prepare_ply},
-    {"xyz", io::read_xyz, nullptr, nullptr, write_rows<' '>},
-    {"txt", io::read_xyz, nullptr, nullptr, write_rows<' '>},
-    {"asc", io::read_xyz, nullptr, nullptr, write_rows<' '>},
-    {"csv", io::read_xyz, nullptr, nullptr, write_rows<','>},
-    {"pts", io::read_pts},
+    {"xyz", read_rows<io::read_xyz>, nullptr, nullptr, write_rows<' '>},
+    {"txt", read_rows<io::read_xyz>, nullptr, nullptr, write_rows<' '>},
+    {"asc", read_rows<io::read_xyz>, nullptr, nullptr, write_rows<' '>},
+    {"csv", read_rows<io::read_xyz>, nullptr, nullptr, write_rows<','>},
+    {"pts", read_rows<io::read_pts>},
+    {"e57", read_e57_points},
+    {"ptx", read_ptx_points},
+    {"pcd", io::read_pcd},
     {"obj", read_vertices<io::read_obj>, io::read_obj, io::prepare_obj},
     {"off", read_vertices<io::read_off>, io::read_off, io::prepare_off},
     {"stl", read_vertices<io::read_stl>, io::read_stl, io::prepare_stl},
@@ -94,14 +110,25 @@ const Format* sniff_text(const FileContent& file) {
   return nullptr;
 }
 
-const Format* sniff(const FileContent& file) {
+/// Formats that cannot be taken for another: their content counts for more than the extension.
+const Format* sniff_signature(const FileContent& file) {
   const std::string_view bytes = file.bytes();
+  if (bytes.starts_with("ASTM-E57")) return find_format("e57");
   std::string_view first = bytes.substr(0, std::min(bytes.find_first_of("\r\n"), bytes.size()));
   const std::string_view word = io::next_word(first);
   if (word == "ply") return find_format("ply");
   for (const std::string_view keyword : {"OFF", "COFF", "NOFF", "CNOFF", "STOFF", "STCOFF", "STNOFF", "STCNOFF"})
     if (word == keyword) return find_format("off");
-  if (io::equal_ignoring_case(word, "solid")) return find_format("stl");
+  if (io::looks_like_pcd(file)) return find_format("pcd");
+  if (io::looks_like_ptx(file)) return find_format("ptx");
+  return nullptr;
+}
+
+/// What the file most likely is, where neither a signature nor the extension tells.
+const Format* sniff(const FileContent& file) {
+  const std::string_view bytes = file.bytes();
+  std::string_view first = bytes.substr(0, std::min(bytes.find_first_of("\r\n"), bytes.size()));
+  if (io::equal_ignoring_case(io::next_word(first), "solid")) return find_format("stl");
   if (bytes.size() >= 84) {
     const auto byte = [&](std::size_t i) { return static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[i])); };
     const std::uint64_t facets = byte(80) | byte(81) << 8 | byte(82) << 16 | byte(83) << 24;
@@ -112,11 +139,13 @@ const Format* sniff(const FileContent& file) {
 }
 
 /// \param mesh_wanted only formats that hold triangles will do
-const Format& format_for_reading(const std::filesystem::path& path, const FileContent& file, bool mesh_wanted) {
-  const Format* format = format_of(path);
+const Format& format_for_reading(const FileContent& file, bool mesh_wanted) {
+  const Format* format = sniff_signature(file);
+  if (format == nullptr) format = format_of(file.name());
   if (format == nullptr) format = sniff(file);
   if (format == nullptr)
-    file.fail("the format is not known", "convert the file to ply, xyz, txt, asc, csv, pts, obj, off or stl");
+    file.fail("the format is not known",
+              "convert the file to ply, e57, ptx, pcd, pts, xyz, txt, asc, csv, obj, off or stl");
   if (mesh_wanted && format->read_mesh == nullptr)
     file.fail("the file holds points, not a mesh", "use a ply, obj, off or stl file");
   return *format;
@@ -145,10 +174,17 @@ void check_mesh(const TriangleMesh& mesh) {
 
 } // namespace
 
-PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options) {
+PointCloud io::read_cloud(const FileContent& file, const ReadOptions& options, Notes& notes) {
+  return format_for_reading(file, false).read_cloud(file, options, notes);
+}
+
+TriangleMesh io::read_mesh(const FileContent& file) { return format_for_reading(file, true).read_mesh(file); }
+
+PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options, Notes* notes) {
   try {
     const FileContent file(path);
-    return format_for_reading(path, file, false).read_cloud(file, options);
+    Notes unused;
+    return io::read_cloud(file, options, notes == nullptr ? unused : *notes);
   } catch (const std::bad_alloc&) {
     fail_memory(path);
   } catch (const std::length_error&) {
@@ -158,8 +194,7 @@ PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions
 
 TriangleMesh read_mesh(const std::filesystem::path& path) {
   try {
-    const FileContent file(path);
-    return format_for_reading(path, file, true).read_mesh(file);
+    return io::read_mesh(FileContent(path));
   } catch (const std::bad_alloc&) {
     fail_memory(path);
   } catch (const std::length_error&) {
@@ -184,6 +219,7 @@ WriteResult write_point_cloud(const std::filesystem::path& path, const PointClou
   WriteResult result;
   const Body body = format->write_cloud(cloud, options, result);
   if (!cloud.scan_index.empty()) result.warnings.emplace_back("the scan numbers of the points are not written");
+  if (!cloud.sensors.empty()) result.warnings.emplace_back("the sensors of the points are not written");
   write_file_atomically(path, body);
   return result;
 }

@@ -28,7 +28,7 @@ rows() {
 test_every_option_is_in_the_docs() {
   local page=$repository/docs/parameters.md name standard paper row found
   [ -f "$page" ] || skip "docs/parameters.md is not here"
-  options reconstruct | grep -v '^--help' >options
+  { options reconstruct; options orient; options classify; } | grep -v '^--help' | sort -u >options
   rows "$page" >rows
   [ "$(wc -l <options)" -ge 15 ] || die "only $(wc -l <options) options in --help"
   while IFS='|' read -r name standard paper; do
@@ -44,7 +44,7 @@ test_every_option_is_in_the_docs() {
 test_every_option_of_the_docs_exists() {
   local page=$repository/docs/parameters.md name verb
   [ -f "$page" ] || skip "docs/parameters.md is not here"
-  for verb in reconstruct info check compare render demo; do "$program" "$verb" --help; done >help
+  for verb in reconstruct orient classify info check compare render demo; do "$program" "$verb" --help; done >help
   for name in $(grep -oE -- '--[a-z][a-z-]*' "$page" | sort -u); do
     grep -qE -- "$name([^a-z-]|\$)" help || die "docs/parameters.md speaks of $name, which no verb knows"
   done

@@ -10,13 +10,13 @@ test_no_arguments_prints_the_overview() {
 
 test_help_goes_to_stdout() {
   local verb
-  for verb in reconstruct info check compare render demo; do
+  for verb in reconstruct orient classify info check compare render demo; do
     expect 0 "$verb" --help
     grep -q "Usage: eigencrust $verb" out || die "no usage line of $verb"
     [ ! -s err ] || die "help on stderr"
   done
   expect 0 --help
-  for verb in reconstruct info check compare render demo; do
+  for verb in reconstruct orient classify info check compare render demo; do
     grep -qE "^  $verb " out || die "$verb is missing in the overview"
   done
   grep -q -- '--preset' out || die "the options of reconstruct are missing"

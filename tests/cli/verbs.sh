@@ -60,6 +60,25 @@ test_info() {
   [ ! -s err ] || die "something on stderr"
 }
 
+test_info_tells_of_sensors() {
+  { printf 'FIELDS x y z\nVIEWPOINT 4320978.25 2 3 1 0 0 0\nPOINTS 300\nDATA ascii\n'; sphere 300; } >a.pcd
+  { printf '300\n1\n0 0 9\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 9 1\n'; sphere 300; } >b.ptx
+  sphere 300 >c.xyz
+  expect 0 info a.pcd b.ptx c.xyz
+  grep -qF 'VIEWPOINT (4320978.25, 2, 3) read as the sensor' out || die "does not say how VIEWPOINT was read"
+  grep -qF 'sensors: 2 at (4320978.25, 2, 3), (0, 0, 9); 300 points without' out || die "no sensors"
+  expect 0 info a.pcd b.ptx c.xyz --json
+  equal sensors "$(value out /sensor_count)" 2
+  equal "place of the second" "$(value out /sensors/1/position/2)" 9.0
+  equal "points of the second" "$(value out /sensors/1/points)" 300
+  equal "points without" "$(value out /points_without_sensor)" 300
+  expect 0 info a.pcd --pcd-viewpoint pose --json
+  awk -v x="$(value out /bounds/min/0)" 'BEGIN { exit !(x > 4320976 && x < 4320978) }' || die "the points were not moved"
+  expect 0 info a.pcd --pcd-viewpoint none
+  grep -qF 'sensors: none known' out || die "sensors in spite of none"
+  expect_error 2 "--pcd-viewpoint" info a.pcd --pcd-viewpoint maybe
+}
+
 test_compare_with_itself() {
   sphere 1000 >cloud.xyz
   expect 0 cloud.xyz -o mesh.ply

@@ -96,6 +96,27 @@ TEST(IoAppendScan, ScansStayApart) {
   EXPECT_THROW(append_scan(cloud, several), Error);
 }
 
+TEST(IoAppendScan, SensorsArePutBehindOneAnother) {
+  const auto seen_by = [](std::size_t points, std::vector<Sensor> sensors, std::vector<std::uint32_t> of) {
+    PointCloud cloud;
+    cloud.points.resize(points);
+    cloud.sensors = std::move(sensors);
+    cloud.sensor_of = std::move(of);
+    return cloud;
+  };
+  constexpr std::uint32_t none = PointCloud::no_sensor;
+  const Sensor a{{1, 2, 3}, false}, b{{0, 0, 1}, true};
+  PointCloud cloud = seen_by(2, {}, {});
+  append_scan(cloud, seen_by(2, {a, b}, {1, none}));
+  append_scan(cloud, seen_by(1, {}, {}));
+  append_scan(cloud, seen_by(1, {a}, {0}));
+  EXPECT_EQ(cloud.sensors, (std::vector<Sensor>{a, b, a}));
+  EXPECT_EQ(cloud.sensor_of, (std::vector<std::uint32_t>{none, none, 1, none, none, 2}));
+  PointCloud unknown = seen_by(1, {}, {});
+  append_scan(unknown, seen_by(1, {}, {}));
+  EXPECT_TRUE(unknown.sensor_of.empty());
+}
+
 TEST(IoAppendScan, MissingAttributesAreNaNOrZero) {
   const auto one = [](const char* name, ScalarType type) { return make_attribute(name, type, std::vector<double>{7}); };
   PointCloud cloud = cloud_of(1, {one("real", ScalarType::float32), list_of_int16("list", {{1, 2}})});

@@ -171,8 +171,16 @@ TEST_F(IoPoints, ContentDecidesWhereTheExtensionSaysNothing) {
             1u);
   EXPECT_THAT(read("a.dat", "solid\nendsolid\n").points, IsEmpty());
   EXPECT_THAT(error("a.las", "LASF\x01\x02"), HasSubstr("format is not known"));
-  EXPECT_THAT(error("a.e57", ""), HasSubstr("format is not known"));
+  EXPECT_THAT(error("a.e57", ""), HasSubstr("no E57 signature"));
   EXPECT_THAT(error("a.dat", std::string(200, '\0')), HasSubstr("format is not known"));
+}
+
+TEST_F(IoPoints, SignaturesCountForMoreThanTheExtension) {
+  EXPECT_EQ(read("a.txt", "OFF\n1 0 0\n1 2 3\n").points.size(), 1u);
+  EXPECT_EQ(read("a.xyz", "FIELDS x y z\nPOINTS 1\nDATA ascii\n1 2 3\n").points.size(), 1u);
+  EXPECT_THAT(error("a.ply", "ASTM-E57"), HasSubstr("within the E57 header"));
+  // Rows of numbers are what the extension says.
+  EXPECT_THAT(error("a.pcd", "1 2 3\n"), HasSubstr("no keyword of a PCD header"));
 }
 
 TEST_F(IoPoints, MissingFilesAndFolders) {

@@ -52,7 +52,7 @@ std::vector<Attribute> all_types() {
   int number = 0;
   for (const ScalarType type : {ScalarType::int8, ScalarType::uint8, ScalarType::int16, ScalarType::uint16,
                                 ScalarType::int32, ScalarType::uint32, ScalarType::float32, ScalarType::float64})
-    attributes.push_back(column("a" + std::to_string(number++), type, {-1e12, 1e12, 0.1, 1}));
+    attributes.push_back(column(std::string("a") + std::to_string(number++), type, {-1e12, 1e12, 0.1, 1}));
   Attribute list = column("list", ScalarType::int16, {-300, 300, 7});
   list.is_list = true;
   list.count_type = ScalarType::uint16;
