@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cases.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include <eigencrust/error.h>
+
+#include "sampling.h"
+
+namespace eigencrust::bench {
+
+std::vector<Case> all_cases() {
+  std::vector<Case> cases;
+  add_outlier_cases(cases);
+  add_bumpy_cases(cases);
+  add_bunny_cases(cases);
+  add_raw_cases(cases);
+  add_missing_cases(cases);
+  add_body_cases(cases);
+  add_density_cases(cases);
+  add_noise_cases(cases);
+  return cases;
+}
+
+std::vector<Case> select_cases(std::vector<Case> cases, const std::vector<std::string>& patterns, bool quick) {
+  std::vector<std::string> wanted;
+  for (const std::string& list : patterns) {
+    std::istringstream stream(list);
+    for (std::string pattern; std::getline(stream, pattern, ',');)
+      if (!pattern.empty()) wanted.push_back(pattern);
+  }
+  const auto fits = [](const Case& c, const std::string& pattern) {
+    return (c.group + "/" + c.name).find(pattern) != std::string::npos;
+  };
+  for (const std::string& pattern : wanted)
+    if (std::none_of(cases.begin(), cases.end(), [&](const Case& c) { return fits(c, pattern); }))
+      throw Error(ErrorKind::usage, "--cases", "no case fits '" + pattern + "'", "see --list");
+  std::erase_if(cases, [&](const Case& c) {
+    const auto this_fits = [&](const std::string& pattern) { return fits(c, pattern); };
+    return (quick && c.large) || (!wanted.empty() && std::none_of(wanted.begin(), wanted.end(), this_fits));
+  });
+  return cases;
+}
+
+Scene clean_scene(std::vector<Vec3> samples, Truth truth, unsigned threads) {
+  Scene scene;
+  scene.true_samples = samples.size();
+  scene.spacing = median_spacing(samples, threads);
+  scene.cloud.points = std::move(samples);
+  scene.truth = std::move(truth);
+  return scene;
+}
+
+RenderOptions view_of(const std::string& file) {
+  RenderOptions view;
+  view.width = view.height = 900;
+  if (file.find("horse") != std::string::npos) {
+    view.up = {0, 0, 1};
+    view.azimuth = 110;
+  } else if (file.find("armadillo") != std::string::npos) {
+    view.azimuth = 150; // its face looks along +z in the model, its back is seen
+  }
+  return view;
+}
+
+} // namespace eigencrust::bench
