@@ -10,6 +10,14 @@ std::string defaults(const std::string& robust, const std::string& paper) {
   return robust == paper ? " [" + robust + "]" : " [" + robust + "; paper: " + paper + "]";
 }
 
+/// --NAME and --no-NAME; neither leaves the preset's choice.
+void add_switch(CLI::App& app, const std::string& name, std::optional<bool>& value, const std::string& meaning) {
+  app.add_flag_callback(
+      "--" + name, [&value] { value = true; }, meaning);
+  app.add_flag_callback(
+      "--no-" + name, [&value] { value = false; }, "Do not");
+}
+
 } // namespace
 
 void add_method_options(CLI::App& app, Request& r) {
@@ -23,11 +31,12 @@ void add_method_options(CLI::App& app, Request& r) {
   app.add_option("--questionable", r.questionable,
                  "Tetrahedra under 4 grid spacings lose their say before or after the first partition, or never" +
                      defaults(to_string(robust.questionable), to_string(paper.questionable)));
-  app.add_flag_callback(
-      "--local-noise", [&r] { r.local_noise = true; },
-      "Where the grid spacing is automatic: take it from the noise measured at each sample [on; paper: off]");
-  app.add_flag_callback(
-      "--no-local-noise", [&r] { r.local_noise = false; }, "Do not");
+  add_switch(app, "local-noise", r.local_noise,
+             "Where the grid spacing is automatic: take it from the noise measured at each sample [on; paper: off]");
+  add_switch(app, "centring", r.centring,
+             "Where noise exceeds the spacing: put the surface in the middle of the samples [on; paper: off]");
+  add_switch(app, "close-handles", r.close_handles,
+             "Close handles of the size of the noise that no pole vouches for [on; paper: off]");
   app.add_option("--weights", r.weights,
                  "Pole pairs: evidence (isolated samples, which may be outliers, count little) or paper (all count)" +
                      defaults(to_string(robust.weights), to_string(paper.weights)));
@@ -89,6 +98,8 @@ Options effective_options(const Request& r) {
   Options o = Options::of(parse_preset(r.preset));
   if (!r.grid_spacing.empty()) o.grid_spacing = parse_grid_spacing(r.grid_spacing);
   if (r.local_noise) o.local_noise = *r.local_noise;
+  if (r.centring) o.centring = *r.centring;
+  if (r.close_handles) o.close_handles = *r.close_handles;
   if (!r.questionable.empty()) o.questionable = parse_questionable(r.questionable);
   if (!r.weights.empty()) o.weights = parse_weights(r.weights);
   if (!r.second_stage.empty()) o.second_stage = parse_second_stage(r.second_stage);

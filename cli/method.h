@@ -19,7 +19,7 @@ struct Request {
   bool manifold = Options{}.manifold; // on in both presets
   std::optional<std::uint32_t> smooth;
   std::optional<double> tolerance;
-  std::optional<bool> local_noise;
+  std::optional<bool> local_noise, centring, close_handles;
   std::optional<double> min_agreement, pole_ties, recover_share;
   std::optional<std::uint32_t> max_steps;
   std::vector<std::string> outside_points, inside_points;

@@ -21,7 +21,8 @@ struct StageShare {
   std::string_view name;
   double share;
 };
-constexpr std::array<StageShare, 18> shares{{{"samples", 4},
+constexpr std::array<StageShare, 22> shares{{{"samples", 4},
+                                             {"neighbourhoods", 2},
                                              {"noise", 2},
                                              {"delaunay", 24},
                                              {"stars", 1},
@@ -33,9 +34,12 @@ constexpr std::array<StageShare, 18> shares{{{"samples", 4},
                                              {"label_poles", 2},
                                              {"tetrahedron_graph", 2},
                                              {"partition_tetrahedra", 20},
+                                             {"centring", 2},
                                              {"manifold", 4},
+                                             {"handles", 4},
                                              {"recover", 1},
                                              {"surface", 1},
+                                             {"support", 1},
                                              {"components", 2},
                                              {"attributes", 1},
                                              {"validate", 10}}};

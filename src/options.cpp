@@ -84,6 +84,8 @@ Options Options::of(Preset preset) {
     options.min_agreement = 0;
     options.weights = Weights::paper;
     options.local_noise = false;
+    options.centring = false;
+    options.close_handles = false;
     options.pole_ties = 0;
     options.recover_share = 0;
     options.manifold_rule = ManifoldRule::paper;

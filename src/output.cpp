@@ -114,8 +114,8 @@ void describe_pole_labels(const PoleLabels& labels, Run& run) {
   run.count("left_to_stage_two", static_cast<double>(labels.left_to_stage_two));
 }
 
-std::vector<float> grid_spacing_field(const PointCloud& cloud, const Samples& samples, Report& report,
-                                      const Threads& threads) {
+std::vector<float> grid_spacing_field(const PointCloud& cloud, const Samples& samples, std::span<const float> isolated,
+                                      Report& report, const Threads& threads) {
   const Options& options = report.options;
   if (options.questionable == Questionable::never) return {};
   report.grid_spacing = resolve_grid_spacing(options.grid_spacing, samples, cloud.points, cloud.scan_index, threads);
@@ -126,7 +126,7 @@ std::vector<float> grid_spacing_field(const PointCloud& cloud, const Samples& sa
                : std::vector<float>{};
   // Four times ℓ is the length below which a tetrahedron may be noise alone (docs/decisions/0012).
   constexpr float grid_spacing_in_deviations = 1.2f;
-  std::vector<float> field = std::move(noise_scale(samples, threads).raw());
+  std::vector<float> field = std::move(noise_scale(samples, isolated, threads).raw());
   for (float& value : field) value *= grid_spacing_in_deviations;
   const bool some = std::any_of(field.begin(), field.end(), [](float value) { return value > 0; });
   return some ? field : std::vector<float>{};
@@ -175,6 +175,7 @@ TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, co
     for (const std::uint32_t row : source) scan.push_back(cloud.scan_index[row]);
     mesh.vertex_attributes.push_back(make_attribute("scan_index", scan));
   }
+  mesh.triangle_attributes.push_back(make_attribute("support", surface.support));
   return mesh;
 }
 

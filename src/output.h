@@ -23,8 +23,8 @@ void describe_pole_labels(const PoleLabels& labels, Run& run);
 
 /// ℓ of §3.3 at every sample: the one given, else from the noise measured at each sample or, without
 /// local_noise, the one of merged scans; empty where there is none. Sets report.grid_spacing.
-std::vector<float> grid_spacing_field(const PointCloud& cloud, const Samples& samples, Report& report,
-                                      const Threads& threads);
+std::vector<float> grid_spacing_field(const PointCloud& cloud, const Samples& samples, std::span<const float> isolated,
+                                      Report& report, const Threads& threads);
 /// How far each sample looks for its poles; 0 where the noise is below the spacing. Empty: nowhere.
 std::vector<float> reach_of(const std::vector<float>& grid_spacing, const Options& options, double spacing);
 /// \throws Error{no_surface}

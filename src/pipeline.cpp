@@ -24,9 +24,13 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
 
   Samples samples = run.stage("samples", [&] { return prepare_samples(cloud.points, threads); });
   describe_input(cloud, samples, run, report, threads);
+  const Neighbourhoods around =
+      run.stage("neighbourhoods", [&] { return sample_neighbourhoods(samples.positions.raw(), threads); });
+  const auto isolated =
+      options.weights == Weights::evidence ? std::span<const float>(around.isolated) : std::span<const float>{};
   // §3.3: ℓ, of the whole cloud or of each sample; how far a sample looks for its poles
   const std::vector<float> grid =
-      run.stage("noise", [&] { return grid_spacing_field(cloud, samples, report, threads); });
+      run.stage("noise", [&] { return grid_spacing_field(cloud, samples, isolated, report, threads); });
   const std::vector<float> reach = reach_of(grid, options, report.spacing);
   describe_noise(grid, run);
 
@@ -44,9 +48,7 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   const auto questionable =
       run.stage("questionable", [&] { return questionable_tetrahedra(t, grid, threads); }); // §3.3
   const bool leave_out = options.questionable == Questionable::before;
-  const bool weigh = options.weights == Weights::evidence;
   const PoleGraph g = run.stage("pole_graph", [&] {
-    const auto isolated = weigh ? isolated_neighbourhoods(t, stars, threads) : std::vector<float>{};
     const auto left_out = leave_out ? std::span<const std::uint8_t>(questionable) : std::span<const std::uint8_t>{};
     return pole_graph(t, stars, poles, known, left_out, isolated, threads);
   });
@@ -72,8 +74,12 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
     return partition_tetrahedra(h, options.second_stage, options.solver, threads, run.checkpoint());
   });
   describe_partition("tetrahedra", h.graph, second, run, report);
-  FinalLabels labels =
-      run.stage("label_tetrahedra", [&] { return label_tetrahedra(h, second, std::move(pole_labels.labels)); });
+  FinalLabels labels = run.stage("label_tetrahedra", [&] { return label_tetrahedra(h, second, pole_labels.labels); });
+  if (options.centring) {
+    const auto moved = run.stage(
+        "centring", [&] { return centre_in_noise(t, stars, reach, isolated, pole_labels.labels, threads, labels); });
+    run.count("relabelled", static_cast<double>(moved));
+  }
   run.product("tetrahedra", [&] { return snapshot_of_tetrahedra(t, labels); });
   describe_labels(labels, run);
 
@@ -84,13 +90,21 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
     });
     describe_manifold(counts, known, labels.labels, run);
   }
-  const auto recovered =
-      run.stage("recover", [&] { return recover_samples(t, stars, known, options.recover_share, labels.labels); });
+  if (options.manifold && options.close_handles) {
+    const auto closed = run.stage("handles", [&] {
+      return close_handles(t, stars, poles, pole_labels.labels, known, grid, options.manifold_rule, labels,
+                           run.checkpoint());
+    });
+    run.count("closed", static_cast<double>(closed));
+  }
+  const auto recovered = run.stage(
+      "recover", [&] { return recover_samples(t, stars, known, isolated, options.recover_share, labels.labels); });
   run.count("samples", static_cast<double>(recovered));
   Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels); });
   run.product("surface", [&] { return snapshot_of_surface(t, surface); });
+  run.stage("support", [&] { measure_support(t, labels, around, grid, surface, threads); });
   report.dropped_components =
-      run.stage("components", [&] { return filter_components(surface, options.components, t, stars); });
+      run.stage("components", [&] { return filter_components(surface, options.components, t, grid); });
   require_surface(surface);
   if (options.point_results) {
     run.stage("points", [&] { add_point_results(cloud, t, surface, grid, threads, result); });

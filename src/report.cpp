@@ -58,6 +58,8 @@ Json json_of(const Options& o) {
           {"global_sign", to_string(o.global_sign)},
           {"min_agreement", o.min_agreement},
           {"pole_ties", o.pole_ties},
+          {"centring", o.centring},
+          {"close_handles", o.close_handles},
           {"recover_share", o.recover_share},
           {"manifold", o.manifold},
           {"manifold_rule", to_string(o.manifold_rule)},
@@ -115,10 +117,8 @@ std::string to_json(const Report& report) {
   for (const StageReport& s : report.stages) stages.push_back(json_of(s));
   for (const PartitionReport& p : report.partitions) partitions.push_back(json_of(p));
   for (const DroppedComponent& d : report.dropped_components)
-    dropped.push_back({{"vertices", d.vertices},
-                       {"triangles", d.triangles},
-                       {"median_edge_in_spacings", d.median_edge},
-                       {"centre", json_of(d.centre)}});
+    dropped.push_back(
+        {{"vertices", d.vertices}, {"triangles", d.triangles}, {"support", d.support}, {"centre", json_of(d.centre)}});
   const Json json{{"schema", 1},
                   {"version", version()},
                   {"command", report.command},

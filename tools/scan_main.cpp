@@ -137,9 +137,9 @@ std::vector<Vec3> directions(const Settings& s, const Vec3& up) {
 }
 
 /// A sensor with a view of its own, "TARGET[:DEGREES[:RAYS]]".
-Sensor close_up(const Vec3& position, const std::string& view, const Vec3& up, const Settings& s) {
+tools::Sensor close_up(const Vec3& position, const std::string& view, const Vec3& up, const Settings& s) {
   const std::size_t colon = view.find(':');
-  Sensor sensor{.position = position, .target = parse_vector(view.substr(0, colon), "--sensor"), .up = up};
+  tools::Sensor sensor{.position = position, .target = parse_vector(view.substr(0, colon), "--sensor"), .up = up};
   sensor.columns = sensor.rows = s.resolution;
   if (s.field_of_view > 0) sensor.field_of_view = s.field_of_view;
   if (colon == std::string::npos) return sensor;
@@ -153,12 +153,12 @@ Sensor close_up(const Vec3& position, const std::string& view, const Vec3& up, c
   return sensor;
 }
 
-std::vector<Sensor> make_sensors(const Settings& s, const Box3& box) {
+std::vector<tools::Sensor> make_sensors(const Settings& s, const Box3& box) {
   const Vec3 up = parse_vector(s.up, "--up");
   const Vec3 target = s.look_at.empty() ? box.centre() : parse_vector(s.look_at, "--look-at");
   const double radius = 0.5 * box.diagonal() + distance(target, box.centre());
   const double spacing = s.parallel.empty() ? 0 : parse_length(s.parallel, box.diagonal(), "--parallel");
-  std::vector<Sensor> sensors;
+  std::vector<tools::Sensor> sensors;
   const auto add = [&](const Vec3& direction, double distance) {
     if (!s.parallel.empty())
       sensors.push_back(aim_parallel(target, direction, radius, distance, spacing, up));
@@ -201,7 +201,7 @@ void run(Settings& s) {
   s.scan.range_quantum = parse_length(s.quantize, box.diagonal(), "--quantize");
   s.scan.outliers = s.outlier_kind == "ray" ? OutlierKind::ray : OutlierKind::box;
 
-  const std::vector<Sensor> sensors = make_sensors(s, box);
+  const std::vector<tools::Sensor> sensors = make_sensors(s, box);
   PointCloud cloud = scan(mesh, sensors, s.scan);
   if (cloud.points.empty())
     throw Error(ErrorKind::input, s.input, "no ray came back from the surface",

@@ -110,6 +110,10 @@ struct Options {
   /// Make the surface a manifold by relabelling (§3.5).
   bool manifold = true;
   ManifoldRule manifold_rule = ManifoldRule::cheapest;
+  /// Where noise exceeds the spacing: put the surface in the middle of the samples. docs/decisions/0015.
+  bool centring = true;
+  /// Close handles of the size of the noise that no pole vouches for. docs/decisions/0016.
+  bool close_handles = true;
   /// Samples that the surface passes by closely are taken in when they are at most this share of those on
   /// it (more are noise); in [0, 1], 0 as in the paper: none. docs/decisions/0007.
   double recover_share = 0.04;

@@ -36,9 +36,20 @@ double median_spacing(const Samples& samples, std::span<const Vec3> points, std:
 double resolve_grid_spacing(const GridSpacing& option, const Samples& samples, std::span<const Vec3> points,
                             std::span<const std::uint32_t> scan_index, const Threads& threads);
 
+/// How close the samples stand, and which of them may be outliers (not in the paper; docs/decisions/0013).
+struct Neighbourhoods {
+  std::vector<float> spacing; ///< distance to the third nearest other sample
+  double typical = 0;         ///< median of those
+  /// Distance to the 20th nearest sample where a sample is isolated: its spacing is 2.5 times the typical one
+  /// and its neighbourhood is not flat. 0 for all others.
+  std::vector<float> isolated;
+};
+Neighbourhoods sample_neighbourhoods(std::span<const Vec3> positions, const Threads& threads);
+
 /// Standard deviation of the noise at each sample, 0 where there is none to be told from curvature; smooth
-/// in space, length unit of the input (not in the paper).
-IndexedArray<SampleIndex, float> noise_scale(const Samples& samples, const Threads& threads);
+/// in space, length unit of the input (not in the paper). Isolated samples (see above; may be empty) set no scale.
+IndexedArray<SampleIndex, float> noise_scale(const Samples& samples, std::span<const float> isolated,
+                                             const Threads& threads);
 
 /// §3: Delaunay tetrahedra of the samples and the corners of a cube whose half side is 10 diagonals of
 /// their bounding box. \throws Error{input} when all samples are coplanar or collinear
@@ -61,11 +72,6 @@ Labels known_labels(const Tetrahedralization& tetrahedralization, std::span<cons
 /// corner. \param grid_spacing a length per sample; empty: none is questionable
 std::vector<std::uint8_t> questionable_tetrahedra(const Tetrahedralization& tetrahedralization,
                                                   std::span<const float> grid_spacing, const Threads& threads);
-
-/// Distance to the 20th nearest sample for samples that are isolated (their third nearest neighbour is 5 times
-/// farther than is typical), 0 for all others: those that may be outliers (not in the paper).
-std::vector<float> isolated_neighbourhoods(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
-                                           const Threads& threads);
 
 /// §3.1: the signed graph on the poles with the outside supernode (0) and, when something is known to be
 /// inside, the inside supernode (1). Poles of tetrahedra in `left_out` (may be empty) are no nodes. The pole
@@ -124,6 +130,14 @@ struct FinalLabels {
 };
 FinalLabels label_tetrahedra(const TetrahedronGraph& graph, const Partition& partition, Labels labels);
 
+/// Where noise exceeds the spacing (`reach` > 0, see find_poles): moves the boundary between inside and outside to
+/// the middle of the samples, half of them on either side, and smooths it at the scale of a few spacings. The harmonic
+/// values leave it on the inner side, and nowhere in thin parts. Only tetrahedra that the first stage left open
+/// (`first`) change (not in the paper). \return how many changed sides
+std::uint64_t centre_in_noise(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
+                              std::span<const float> reach, std::span<const float> isolated, const Labels& first,
+                              const Threads& threads, FinalLabels& labels);
+
 /// §3.5: relabels tetrahedra until the surface is a manifold. With the paper's rule labels only go from
 /// inside to outside; with `cheapest` a tetrahedron may once go the other way, so both end. What is `known` gives way
 /// only where nothing else does.
@@ -135,25 +149,44 @@ ManifoldCounts make_manifold(const Tetrahedralization& tetrahedralization, const
                              const Labels& known, ManifoldRule rule, FinalLabels& labels,
                              const Checkpoint& checkpoint = {});
 
+/// Closes handles that no pole vouches for: along short loops of the surface the tetrahedra that the first stage
+/// left open (`first`) change sides, if that takes a handle away and leaves a manifold; the cheaper of filling and
+/// cutting, by Σ |value|. Expects a manifold (not in the paper). \return how many
+std::uint64_t close_handles(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
+                            const Labels& first, const Labels& known, std::span<const float> grid_spacing,
+                            ManifoldRule rule, FinalLabels& labels, const Checkpoint& checkpoint = {});
+
 /// Takes samples into the surface that it passes by closely: the tetrahedron between such a sample and a
 /// surface triangle changes sides, which neither opens nor joins anything. Only when such samples are at
-/// most `max_share` of those on the surface; more are noise (not in the paper).
+/// most `max_share` of those on the surface; more are noise. Isolated samples (may be empty) stay out where they
+/// are more (not in the paper).
 /// \return how many
 std::uint64_t recover_samples(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
-                              const Labels& known, double max_share, Labels& labels);
+                              const Labels& known, std::span<const float> isolated, double max_share, Labels& labels);
 
 /// §3: the faces between inside and outside, counter-clockwise seen from outside; sample_of[v] is the
 /// sample behind vertex v, coordinates are still relative to the origin.
 struct Surface {
   TriangleMesh mesh;
   std::vector<SampleIndex> sample_of;
+  std::vector<TetrahedronIndex> inside; ///< the tetrahedron behind each triangle
+  std::vector<float> support;           ///< of each triangle, see measure_support
 };
 Surface extract_surface(const Tetrahedralization& tetrahedralization, const Labels& labels);
 
-/// Removes pieces of the surface by `keep`; see docs/parameters.md for `supported`.
-/// \param spacing median distance of a sample to its nearest sample
+/// How well the samples bear out each triangle, in [0, 1]: min(1, 2.5 h / e) (1 + min(1, c)) / 2, where e is its
+/// longest edge, h the mean over its vertices of the local spacing (of isolated ones: the typical one) or of the grid
+/// spacing ℓ if that is larger, and c the contrast |x_out - x_in| of the second stage's values across it (not in the
+/// paper).
+void measure_support(const Tetrahedralization& tetrahedralization, const FinalLabels& labels,
+                     const Neighbourhoods& neighbourhoods, std::span<const float> grid_spacing, Surface& surface,
+                     const Threads& threads);
+
+/// Removes pieces of the surface by `keep`; see docs/parameters.md for `supported`. Expects surface.support.
+/// \param grid_spacing ℓ of each sample; may be empty
 std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComponents& keep,
-                                                const Tetrahedralization& tetrahedralization, const VertexStars& stars);
+                                                const Tetrahedralization& tetrahedralization,
+                                                std::span<const float> grid_spacing);
 
 /// Which samples belong to the surface, from the labels (not in the paper; docs/decisions/0014).
 struct Classification {

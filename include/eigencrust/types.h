@@ -267,8 +267,8 @@ struct Partition {
 /// One piece of surface that was not kept, so that nothing is lost silently.
 struct DroppedComponent {
   std::uint32_t vertices = 0, triangles = 0;
-  double median_edge = 0; ///< in units of the local spacing
-  Vec3 centre;            ///< mean of its vertices, input coordinates
+  double support = 0; ///< mean over its area, see measure_support
+  Vec3 centre;        ///< mean of its vertices, input coordinates
 };
 
 } // namespace eigencrust

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which samples may be outliers, and how far their neighbourhood reaches (not in the paper;
 // docs/decisions/0013).
+#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <limits>
+#include <array>
+#include <cmath>
 
 #include <eigencrust/stages.h>
 
@@ -12,53 +14,66 @@
 namespace eigencrust {
 namespace {
 
-// A sample is isolated when its third nearest neighbour is farther than so many times the typical one.
-constexpr double isolation = 5;
+// A sample is isolated when its third nearest neighbour is farther than so many times the typical one ...
+constexpr double isolation = 2.5;
+// ... and its neighbourhood is not flat: its smallest deviation is more than so much of the second.
+constexpr double flat_ratio = 0.4;
 constexpr std::size_t neighbourhood = 20;
 
-/// Third shortest Delaunay edge at s: the third nearest neighbour, or a little more.
-double third_shortest_edge(const Tetrahedralization& t, const VertexStars& stars, SampleIndex s) {
-  std::array<std::pair<double, SampleIndex>, 3> shortest;
-  shortest.fill({std::numeric_limits<double>::infinity(), SampleIndex{}});
-  for (const TetrahedronIndex tetrahedron : stars[s])
-    for (const SampleIndex v : t.tetrahedra[tetrahedron]) {
-      if (v == s || t.is_corner(v)) continue;
-      const std::pair<double, SampleIndex> edge{distance(t.positions[s], t.positions[v]), v};
-      if (!(edge < shortest[2]) || edge == shortest[0] || edge == shortest[1]) continue;
-      shortest[2] = edge;
-      std::sort(shortest.begin(), shortest.end());
-    }
-  return shortest[2].first;
+std::vector<float> third_nearest(const PointTree& tree, std::span<const Vec3> positions, const Threads& threads) {
+  std::vector<float> third(positions.size());
+  for_each_index(
+      threads, positions.size(),
+      [&](std::size_t i) {
+        std::array<std::uint32_t, 4> index{};
+        std::array<double, 4> square{};
+        const std::size_t found = tree.nearest(positions[i], 4, index.data(), square.data());
+        third[i] = static_cast<float>(std::sqrt(square[found - 1]));
+      },
+      2048);
+  return third;
+}
+
+bool is_flat(std::span<const Vec3> positions, std::span<const std::uint32_t> neighbours, const Vec3& origin) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (const std::uint32_t j : neighbours) {
+    const Vec3 d = positions[j] - origin; // relative to the sample, so that nothing cancels
+    const Eigen::Vector3d e(d.x, d.y, d.z);
+    sum += e;
+    moments += e * e.transpose();
+  }
+  const double n = static_cast<double>(neighbours.size());
+  const Eigen::Vector3d variance = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
+                                       moments / n - sum * sum.transpose() / (n * n), Eigen::EigenvaluesOnly)
+                                       .eigenvalues();
+  return variance[0] < flat_ratio * flat_ratio * variance[1];
 }
 
 } // namespace
 
-std::vector<float> isolated_neighbourhoods(const Tetrahedralization& t, const VertexStars& stars,
-                                           const Threads& threads) {
-  std::vector<double> third(t.sample_count);
-  for_each_index(threads, t.sample_count, [&](std::size_t i) {
-    third[i] = third_shortest_edge(t, stars, SampleIndex{static_cast<std::uint32_t>(i)});
-  });
-  std::vector<double> sorted = third;
+Neighbourhoods sample_neighbourhoods(std::span<const Vec3> positions, const Threads& threads) {
+  const PointTree tree(positions);
+  Neighbourhoods result;
+  result.spacing = third_nearest(tree, positions, threads);
+  std::vector<float> sorted = result.spacing;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
-  const double limit = isolation * *middle;
-  std::vector<float> radius(t.sample_count, 0.0f);
-  if (std::none_of(third.begin(), third.end(), [&](double d) { return d > limit; })) return radius;
-  const PointTree tree(std::span(t.positions.raw()).first(t.sample_count));
+  result.typical = static_cast<double>(*middle);
+  const double limit = isolation * result.typical;
+  result.isolated.assign(positions.size(), 0.0f);
   for_each_index(
-      threads, t.sample_count,
+      threads, positions.size(),
       [&](std::size_t i) {
-        if (!(third[i] > limit)) return;
+        if (!(static_cast<double>(result.spacing[i]) > limit)) return;
         std::array<std::uint32_t, neighbourhood + 1> index{};
         std::array<double, neighbourhood + 1> square{};
-        const std::size_t found = tree.nearest(t.positions.raw()[i], neighbourhood + 1, index.data(), square.data());
-        // The third nearest sample may be joined by no Delaunay edge.
-        if (found > 3 && std::sqrt(square[3]) <= limit) return;
-        radius[i] = static_cast<float>(std::sqrt(square[found - 1]));
+        const std::size_t found = tree.nearest(positions[i], neighbourhood + 1, index.data(), square.data());
+        if (is_flat(positions, std::span(index).first(found), positions[i])) return;
+        result.isolated[i] = static_cast<float>(std::sqrt(square[found - 1]));
       },
       512);
-  return radius;
+  return result;
 }
 
 } // namespace eigencrust

@@ -10,70 +10,55 @@
 namespace eigencrust {
 namespace {
 
-// docs/decisions/0004: a speck, or small beside the largest piece and made of long edges.
-constexpr std::uint32_t speck_vertices = 20;
-constexpr double small_share = 0.01;
-constexpr double long_edge = 4;
+// docs/decisions/0004: specks, pieces lost in the noise, and pieces that the samples do not bear out.
+constexpr double speck_vertices = 20, speck_share = 5e-4;
+constexpr double extent_in_grid_spacings = 4;
+constexpr double least_support = 0.4;
 
 struct Piece {
   std::vector<std::uint32_t> triangles;
   std::uint32_t vertices = 0;
-  double median_edge = 0;
+  double support = 0; ///< mean over the area
+  double extent = 0;  ///< diagonal of its box in mean grid spacings; infinite where there is no noise
   Vec3 centre;
 };
 
-/// Mean distance to the three nearest samples joined to s by a Delaunay edge.
-double local_spacing(const Tetrahedralization& t, const VertexStars& stars, SampleIndex s) {
-  std::array<double, 3> nearest;
-  nearest.fill(std::numeric_limits<double>::infinity());
-  std::array<SampleIndex, 3> who{};
-  for (const TetrahedronIndex tetrahedron : stars[s])
-    for (const SampleIndex v : t.tetrahedra[tetrahedron]) {
-      if (v == s || t.is_corner(v) || std::find(who.begin(), who.end(), v) != who.end()) continue;
-      const double d = distance(t.positions[s], t.positions[v]);
-      if (d >= nearest[2]) continue;
-      std::size_t k = 2;
-      for (; k > 0 && nearest[k - 1] > d; --k) {
-        nearest[k] = nearest[k - 1];
-        who[k] = who[k - 1];
-      }
-      nearest[k] = d;
-      who[k] = v;
-    }
-  return (nearest[0] + nearest[1] + nearest[2]) / 3;
+double area(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& v) {
+  return norm(cross(mesh.vertices[v[1]] - mesh.vertices[v[0]], mesh.vertices[v[2]] - mesh.vertices[v[0]])) / 2;
 }
 
-std::vector<Piece> measure_pieces(const Surface& surface, const Tetrahedralization& t, const VertexStars& stars) {
+void measure(const Surface& surface, std::span<const float> grid_spacing, Piece& piece) {
+  std::vector<std::uint32_t> vertices;
+  double supported = 0, whole = 0;
+  for (const std::uint32_t i : piece.triangles) {
+    const auto& v = surface.mesh.triangles[i];
+    vertices.insert(vertices.end(), v.begin(), v.end());
+    const double a = area(surface.mesh, v);
+    supported += a * static_cast<double>(surface.support[i]);
+    whole += a;
+  }
+  piece.support = whole > 0 ? supported / whole : 0;
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  piece.vertices = static_cast<std::uint32_t>(vertices.size());
+  Box3 box;
+  double noise = 0;
+  for (const std::uint32_t v : vertices) {
+    box.add(surface.mesh.vertices[v]);
+    piece.centre = piece.centre + (1.0 / piece.vertices) * surface.mesh.vertices[v];
+    if (!grid_spacing.empty()) noise += static_cast<double>(grid_spacing[surface.sample_of[v].value]) / piece.vertices;
+  }
+  piece.extent = box.diagonal() / noise; // no noise: infinite
+}
+
+std::vector<Piece> measure_pieces(const Surface& surface, std::span<const float> grid_spacing) {
   const std::vector<std::uint32_t> component = triangle_components(surface.mesh);
   std::vector<Piece> pieces;
   for (std::uint32_t i = 0; i < component.size(); ++i) {
     if (component[i] >= pieces.size()) pieces.resize(component[i] + 1);
     pieces[component[i]].triangles.push_back(i);
   }
-  for (Piece& piece : pieces) {
-    std::vector<double> edges;
-    std::vector<std::uint32_t> vertices;
-    for (const std::uint32_t i : piece.triangles) {
-      const auto& v = surface.mesh.triangles[i];
-      for (std::size_t k = 0; k < 3; ++k) {
-        vertices.push_back(v[k]);
-        const std::uint32_t a = v[k], b = v[(k + 1) % 3];
-        if (a > b) continue; // each edge once
-        const double spacing =
-            std::min(local_spacing(t, stars, surface.sample_of[a]), local_spacing(t, stars, surface.sample_of[b]));
-        edges.push_back(distance(surface.mesh.vertices[a], surface.mesh.vertices[b]) / spacing);
-      }
-    }
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    piece.vertices = static_cast<std::uint32_t>(vertices.size());
-    for (const std::uint32_t v : vertices)
-      piece.centre = piece.centre + (1.0 / piece.vertices) * surface.mesh.vertices[v];
-    if (edges.empty()) continue;
-    const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
-    std::nth_element(edges.begin(), middle, edges.end());
-    piece.median_edge = *middle;
-  }
+  for (Piece& piece : pieces) measure(surface, grid_spacing, piece);
   return pieces;
 }
 
@@ -96,8 +81,9 @@ std::vector<std::uint8_t> choose(const std::vector<Piece>& pieces, const KeepCom
       // The largest piece always stays: a cloud of ten points still has a surface.
       for (std::size_t i = 1; i < order.size(); ++i) {
         const Piece& piece = pieces[order[i]];
-        const bool is_small = piece.vertices < small_share * pieces[order[0]].vertices;
-        if (piece.vertices < speck_vertices || (is_small && piece.median_edge > long_edge)) kept[order[i]] = 0;
+        if (piece.vertices < speck_vertices + speck_share * pieces[order[0]].vertices ||
+            piece.extent < extent_in_grid_spacings || piece.support < least_support)
+          kept[order[i]] = 0;
       }
       break;
   }
@@ -107,15 +93,15 @@ std::vector<std::uint8_t> choose(const std::vector<Piece>& pieces, const KeepCom
 } // namespace
 
 std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComponents& keep,
-                                                const Tetrahedralization& t, const VertexStars& stars) {
-  const std::vector<Piece> pieces = measure_pieces(surface, t, stars);
+                                                const Tetrahedralization& t, std::span<const float> grid_spacing) {
+  const std::vector<Piece> pieces = measure_pieces(surface, grid_spacing);
   const std::vector<std::uint8_t> kept = choose(pieces, keep);
   std::vector<DroppedComponent> dropped;
   std::vector<std::uint8_t> gone(surface.mesh.triangles.size(), 0);
   for (std::size_t c = 0; c < pieces.size(); ++c) {
     if (kept[c]) continue;
-    dropped.push_back({pieces[c].vertices, static_cast<std::uint32_t>(pieces[c].triangles.size()),
-                       pieces[c].median_edge, pieces[c].centre + t.origin});
+    dropped.push_back({pieces[c].vertices, static_cast<std::uint32_t>(pieces[c].triangles.size()), pieces[c].support,
+                       pieces[c].centre + t.origin});
     for (const std::uint32_t i : pieces[c].triangles) gone[i] = 1;
   }
   if (dropped.empty()) return dropped;
@@ -134,6 +120,8 @@ std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComp
     if (!gone[i]) {
       const auto& [a, b, c] = surface.mesh.triangles[i];
       rest.mesh.triangles.push_back({vertex_of[a], vertex_of[b], vertex_of[c]});
+      rest.inside.push_back(surface.inside[i]);
+      rest.support.push_back(surface.support[i]);
     }
   surface = std::move(rest);
   std::stable_sort(dropped.begin(), dropped.end(),

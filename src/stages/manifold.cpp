@@ -4,20 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <tuple>
 
 #include <eigencrust/stages.h>
 
 #include "stages/star.h"
+#include "stages/star_repair.h"
 
 namespace eigencrust {
-namespace {
 
-class ManifoldRepair {
+class StarRepair::Impl {
  public:
-  ManifoldRepair(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& known,
-                 ManifoldRule rule, FinalLabels& labels)
+  Impl(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& known,
+       ManifoldRule rule, FinalLabels& labels)
       : t_(t),
         stars_(stars),
         poles_(poles),
@@ -25,13 +26,14 @@ class ManifoldRepair {
         rule_(rule),
         labels_(labels),
         star_(t, stars),
-        waiting_(t.sample_count, 1) {
+        waiting_(t.sample_count, 0) {
     if (rule_ == ManifoldRule::cheapest) filled_.assign(t.tetrahedra.size(), 0);
   }
 
-  ManifoldCounts run(const Checkpoint& checkpoint) {
-    std::vector<std::uint32_t> round(t_.sample_count);
-    for (std::uint32_t s = 0; s < t_.sample_count; ++s) round[s] = s;
+  ManifoldCounts run(std::vector<std::uint32_t> round, std::vector<Flip>* journal, const Checkpoint& checkpoint) {
+    counts_ = {};
+    journal_ = journal;
+    for (const std::uint32_t s : round) waiting_[s] = 1;
     while (!round.empty()) {
       const std::uint64_t before = counts_.relabelled;
       for (std::size_t i = 0; i < round.size(); ++i) {
@@ -41,14 +43,34 @@ class ManifoldRepair {
       }
       // Samples whose star changed after their turn come again, in increasing order.
       round.clear();
+      std::swap(round, next_);
       if (counts_.relabelled == before) break;
-      for (std::uint32_t s = 0; s < t_.sample_count; ++s)
-        if (waiting_[s]) round.push_back(s);
+      std::sort(round.begin(), round.end());
     }
+    for (const std::uint32_t s : round) waiting_[s] = 0;
     return counts_;
   }
 
+  void undo(std::span<const Flip> journal) {
+    for (std::size_t i = journal.size(); i-- > 0;) {
+      const auto& [tetrahedron, before] = journal[i];
+      if (before == Label::outside && !filled_.empty()) filled_[tetrahedron.value] = 0;
+      labels_.labels[tetrahedron] = before;
+    }
+  }
+
  private:
+  /// Writes a flip down; the samples of the tetrahedron come again.
+  void note(TetrahedronIndex tetrahedron, Label before) {
+    ++counts_.relabelled;
+    if (journal_) journal_->push_back({tetrahedron, before});
+    for (const SampleIndex v : t_.tetrahedra[tetrahedron]) {
+      if (t_.is_corner(v) || waiting_[v.value]) continue;
+      waiting_[v.value] = 1;
+      next_.push_back(v.value);
+    }
+  }
+
   bool is_mixed(SampleIndex s) const {
     const auto star = stars_[s];
     return std::any_of(star.begin(), star.end(),
@@ -86,8 +108,7 @@ class ManifoldRepair {
     const TetrahedronIndex tetrahedron = star_[i];
     labels_.labels[tetrahedron] = Label::inside;
     filled_[tetrahedron.value] = 1;
-    ++counts_.relabelled;
-    for (const SampleIndex v : t_.tetrahedra[tetrahedron]) waiting_[v.value] = 1;
+    note(tetrahedron, Label::outside);
   }
 
   struct Candidate {
@@ -152,9 +173,7 @@ class ManifoldRepair {
   void set_outside(std::uint32_t i) {
     const TetrahedronIndex tetrahedron = star_[i];
     labels_.labels[tetrahedron] = Label::outside;
-    ++counts_.relabelled;
-    for (const SampleIndex v : t_.tetrahedra[tetrahedron])
-      if (!t_.is_corner(v)) waiting_[v.value] = 1;
+    note(tetrahedron, Label::inside);
   }
 
   /// How sure the label is; what is known beforehand gives way last.
@@ -277,6 +296,8 @@ class ManifoldRepair {
   FinalLabels& labels_;
   Star star_;
   std::vector<std::uint8_t> waiting_;
+  std::vector<std::uint32_t> next_; ///< those that wait for the next round
+  std::vector<Flip>* journal_ = nullptr;
   std::vector<std::uint8_t> filled_;
   std::vector<std::uint32_t> component_;
   std::vector<double> price_;
@@ -284,12 +305,23 @@ class ManifoldRepair {
   ManifoldCounts counts_;
 };
 
-} // namespace
+StarRepair::StarRepair(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& known,
+                       ManifoldRule rule, FinalLabels& labels)
+    : impl_(std::make_unique<Impl>(t, stars, poles, known, rule, labels)) {}
+StarRepair::~StarRepair() = default;
+
+ManifoldCounts StarRepair::run(std::vector<std::uint32_t> samples, std::vector<Flip>* journal,
+                               const Checkpoint& checkpoint) {
+  return impl_->run(std::move(samples), journal, checkpoint);
+}
+void StarRepair::undo(std::span<const Flip> journal) { impl_->undo(journal); }
 
 ManifoldCounts make_manifold(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles,
                              const Labels& known, ManifoldRule rule, FinalLabels& labels,
                              const Checkpoint& checkpoint) {
-  return ManifoldRepair(t, stars, poles, known, rule, labels).run(checkpoint);
+  std::vector<std::uint32_t> all(t.sample_count);
+  std::iota(all.begin(), all.end(), 0u);
+  return StarRepair(t, stars, poles, known, rule, labels).run(std::move(all), nullptr, checkpoint);
 }
 
 } // namespace eigencrust

@@ -90,9 +90,19 @@ double quantile(std::vector<double> values, double q) {
 
 } // namespace
 
-IndexedArray<SampleIndex, float> noise_scale(const Samples& samples, const Threads& threads) {
-  const std::span<const Vec3> positions(samples.positions.raw());
+IndexedArray<SampleIndex, float> noise_scale(const Samples& samples, std::span<const float> isolated,
+                                             const Threads& threads) {
+  // Outliers fill space: beside them no neighbourhood is flat, and every one reads as noise.
+  std::vector<Vec3> positions;
+  positions.reserve(samples.positions.size());
+  std::vector<std::uint32_t> kept_before(samples.positions.size());
+  for (std::uint32_t i = 0; i < samples.positions.size(); ++i) {
+    kept_before[i] = static_cast<std::uint32_t>(positions.size());
+    if (isolated.empty() || !(isolated[i] > 0)) positions.push_back(samples.positions.raw()[i]);
+  }
   const auto n = static_cast<std::uint32_t>(positions.size());
+  IndexedArray<SampleIndex, float> scale(samples.positions.size());
+  if (n == 0) return scale;
   const std::uint32_t stride = std::max(samples_per_estimate, (n + max_estimates - 1) / max_estimates);
   const std::uint32_t estimates = (n + stride - 1) / stride;
   const auto representative = [&](std::size_t e) {
@@ -123,8 +133,9 @@ IndexedArray<SampleIndex, float> noise_scale(const Samples& samples, const Threa
         smooth[e] = std::max(typical, quantile(std::move(around), smoothing_quantile));
       },
       256);
-  IndexedArray<SampleIndex, float> scale(n);
-  for_each_index(threads, n, [&](std::size_t i) { scale.raw()[i] = static_cast<float>(smooth[i / stride]); });
+  for_each_index(threads, scale.size(), [&](std::size_t i) {
+    scale.raw()[i] = static_cast<float>(smooth[std::min(kept_before[i], n - 1) / stride]);
+  });
   return scale;
 }
 

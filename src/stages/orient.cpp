@@ -14,8 +14,8 @@ namespace eigencrust {
 namespace {
 
 // Steps of smoothing per grid spacing of noise in units of the surface's edges, and at most.
-constexpr double steps_per_ratio = 8;
-constexpr double max_steps = 16;
+constexpr double steps_per_ratio = 32;
+constexpr double max_steps = 64;
 
 Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
   const double length = norm(v);

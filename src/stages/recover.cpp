@@ -13,6 +13,8 @@ namespace {
 constexpr double max_growth = 30;
 // An outlier is lonely: its nearest sample is farther away than the surface's samples are from each other.
 constexpr double max_loneliness = 1.5;
+// Beside outliers so much of the share.
+constexpr double share_beside_outliers = 0.4;
 
 class Recovery {
  public:
@@ -84,19 +86,21 @@ class Recovery {
 } // namespace
 
 std::uint64_t recover_samples(const Tetrahedralization& t, const VertexStars& stars, const Labels& known,
-                              double max_share, Labels& labels) {
+                              std::span<const float> isolated, double max_share, Labels& labels) {
   if (!(max_share > 0)) return 0;
   Recovery recovery(t, stars, known, labels);
   std::vector<SampleIndex> passed;
-  std::uint64_t within_reach = 0;
   for (std::uint32_t i = 0; i < t.sample_count; ++i) {
     if (!recovery.is_passed_by(SampleIndex{i})) continue;
     passed.push_back(SampleIndex{i});
-    within_reach += recovery.best_tetrahedron(SampleIndex{i}).valid();
   }
-  // Many such samples are noise on either side of the surface, and best left out.
+  // Many such samples are outliers, or noise on either side of the surface, and best left out. Where only
+  // isolated ones are many, the others may come: few outliers stand close to their neighbours.
   const double on_surface = static_cast<double>(t.sample_count - passed.size());
-  if (static_cast<double>(within_reach) > max_share * on_surface) return 0;
+  if (static_cast<double>(passed.size()) > max_share * on_surface) {
+    std::erase_if(passed, [&](SampleIndex s) { return !isolated.empty() && isolated[s.value] > 0; });
+    if (static_cast<double>(passed.size()) > share_beside_outliers * max_share * on_surface) return 0;
+  }
   std::uint64_t recovered = 0;
   for (std::size_t before = passed.size() + 1; passed.size() < before;) {
     before = passed.size();

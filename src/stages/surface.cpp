@@ -21,6 +21,7 @@ Surface extract_surface(const Tetrahedralization& t, const Labels& labels) {
       if (t.is_corner(triangle[0]) || t.is_corner(triangle[1]) || t.is_corner(triangle[2])) continue;
       for (const SampleIndex s : triangle) vertex_of[s] = 0;
       triangles.push_back(triangle);
+      surface.inside.push_back(TetrahedronIndex{i});
     }
   }
   for (std::uint32_t s = 0; s < t.sample_count; ++s) {

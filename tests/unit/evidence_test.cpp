@@ -132,15 +132,19 @@ TEST(KnownLabels, FacadeRefusesAnOutsidePointBehindIt) {
   EXPECT_EQ(kind_of(p.t, {{0, 0, 20}}, {{0, 0, -20}}, Axis::plus_z), ErrorKind{});
 }
 
-TEST(IsolatedNeighbourhoods, OnlyTheLonelySampleHasOne) {
+TEST(Neighbourhoods, OnlyTheLonelySampleIsIsolated) {
   // A flat lattice of spacing 1 with one sample 10 above it: its neighbours are all about 10 away.
   clouds::Points points;
   for (int x = 0; x < 12; ++x)
     for (int y = 0; y < 12; ++y) points.push_back({static_cast<double>(x), static_cast<double>(y), 0});
   points.push_back({5.5, 5.5, 10});
   const clouds::Prepared p = clouds::prepare(points);
-  const std::vector<float> radius = isolated_neighbourhoods(p.t, p.stars, Threads(2));
+  const Neighbourhoods around =
+      sample_neighbourhoods(std::span(p.t.positions.raw()).first(p.t.sample_count), Threads(2));
+  const std::vector<float>& radius = around.isolated;
   ASSERT_EQ(radius.size(), points.size());
+  ASSERT_EQ(around.spacing.size(), points.size());
+  EXPECT_EQ(around.typical, 1); // three lattice neighbours or more
   for (std::uint32_t i = 0; i < radius.size(); ++i) {
     const bool lonely = p.t.source.raw()[i] == points.size() - 1;
     // Twentieth neighbour of the lonely one: within the 32 lattice points at most sqrt(4.5² + 1.5²) off its foot.

@@ -33,9 +33,9 @@ float largest(const IndexedArray<SampleIndex, float>& scale) { return *std::max_
 
 TEST(NoiseScale, PlanesAndCreasesAreNoNoise) {
   const Threads threads(2);
-  EXPECT_LT(largest(noise_scale(prepare_samples(grid(64, 1e9), threads), threads)), 1e-6);
+  EXPECT_LT(largest(noise_scale(prepare_samples(grid(64, 1e9), threads), {}, threads)), 1e-6);
   // A crease is as thick as its neighbourhood is wide: thickness grows, so it is no noise.
-  EXPECT_LT(largest(noise_scale(prepare_samples(grid(64, 32), threads), threads)), 0.05);
+  EXPECT_LT(largest(noise_scale(prepare_samples(grid(64, 32), threads), {}, threads)), 0.05);
 }
 
 TEST(NoiseScale, MeasuresTheDeviationOfANoisyPlane) {
@@ -44,7 +44,7 @@ TEST(NoiseScale, MeasuresTheDeviationOfANoisyPlane) {
     std::vector<Vec3> points = grid(160, 1e9);
     std::uint64_t state = 5;
     for (Vec3& p : points) p.z += sigma * deviate(state);
-    std::vector<float> scale = noise_scale(prepare_samples(points, threads), threads).raw();
+    std::vector<float> scale = noise_scale(prepare_samples(points, threads), {}, threads).raw();
     std::nth_element(scale.begin(), scale.begin() + static_cast<std::ptrdiff_t>(scale.size() / 2), scale.end());
     EXPECT_NEAR(scale[scale.size() / 2], sigma, 0.2 * sigma) << sigma;
   }
@@ -57,9 +57,9 @@ TEST(NoiseScale, DoesNotDependOnTheUnitNorOnThreads) {
   std::vector<Vec3> scaled;
   for (const Vec3& p : points) scaled.push_back(1024 * p);
   const Threads one(1), three(3);
-  const auto a = noise_scale(prepare_samples(points, one), one).raw();
-  const auto b = noise_scale(prepare_samples(points, three), three).raw();
-  const auto c = noise_scale(prepare_samples(scaled, one), one).raw();
+  const auto a = noise_scale(prepare_samples(points, one), {}, one).raw();
+  const auto b = noise_scale(prepare_samples(points, three), {}, three).raw();
+  const auto c = noise_scale(prepare_samples(scaled, one), {}, one).raw();
   EXPECT_EQ(a, b);
   for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(c[i], 1024 * a[i], 1e-2 * a[i] * 1024 + 1e-3);
 }

@@ -81,12 +81,12 @@ TEST(Report, HoldsWhatItWasGiven) {
 
 TEST(Report, HoldsEveryEffectiveOption) {
   const json o = json::parse(to_json(sample_report()))["options"];
-  EXPECT_THAT(keys(o),
-              testing::UnorderedElementsAre(
-                  "preset", "eigensolver", "stop_on_stable_signs", "stable_share", "tolerance", "max_steps",
-                  "second_stage", "grid_spacing", "questionable", "global_sign", "min_agreement", "pole_ties",
-                  "local_noise", "weights", "recover_share", "manifold", "manifold_rule", "components", "smooth",
-                  "smoothing", "outside_points", "inside_points", "facade", "threads", "point_results"));
+  EXPECT_THAT(keys(o), testing::UnorderedElementsAre(
+                           "preset", "eigensolver", "stop_on_stable_signs", "stable_share", "tolerance", "max_steps",
+                           "second_stage", "grid_spacing", "questionable", "global_sign", "min_agreement", "pole_ties",
+                           "local_noise", "centring", "close_handles", "weights", "recover_share", "manifold",
+                           "manifold_rule", "components", "smooth", "smoothing", "outside_points", "inside_points",
+                           "facade", "threads", "point_results"));
   EXPECT_EQ(o["facade"], "-y");
   EXPECT_EQ(o["inside_points"], json::array({json({1.0, 2.0, 3.0})}));
   EXPECT_TRUE(json::parse(to_json(Report{}))["options"]["facade"].is_null());

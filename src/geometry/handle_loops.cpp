@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/handle_loops.h"
+
+#include <algorithm>
+
+namespace eigencrust {
+namespace {
+
+constexpr std::uint32_t none = 0xffffffffu;
+
+struct Edge {
+  std::uint32_t low, high;   ///< vertices
+  std::uint32_t left, right; ///< triangles
+};
+
+std::vector<Edge> edges_of(std::span<const Triangle> triangles, std::size_t vertices) {
+  std::vector<Edge> edges;
+  edges.reserve(triangles.size() * 3 / 2);
+  const std::vector<Side> sides = sorted_sides(triangles, vertices);
+  for_each_edge(sides, [&](std::span<const Side> edge) {
+    if (edge.size() == 2) edges.push_back({edge[0].low, edge[0].high, edge[0].triangle(), edge[1].triangle()});
+  });
+  return edges;
+}
+
+/// Breadth-first trees, one for each component, with the depth of every vertex.
+struct Forest {
+  std::vector<std::uint32_t> parent, depth;
+};
+
+Forest breadth_first(const std::vector<Edge>& edges, std::size_t vertices) {
+  std::vector<std::uint32_t> begin(vertices + 1, 0), neighbour(2 * edges.size());
+  for (const Edge& e : edges) {
+    ++begin[e.low + 1];
+    ++begin[e.high + 1];
+  }
+  for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
+  std::vector<std::uint32_t> place(begin.begin(), begin.end() - 1);
+  for (const Edge& e : edges) {
+    neighbour[place[e.low]++] = e.high;
+    neighbour[place[e.high]++] = e.low;
+  }
+  Forest forest{std::vector<std::uint32_t>(vertices, none), std::vector<std::uint32_t>(vertices, none)};
+  std::vector<std::uint32_t> queue;
+  queue.reserve(vertices);
+  for (std::uint32_t root = 0; root < vertices; ++root) {
+    if (forest.depth[root] != none) continue;
+    forest.depth[root] = 0;
+    queue.assign(1, root);
+    for (std::size_t i = 0; i < queue.size(); ++i)
+      for (std::uint32_t k = begin[queue[i]]; k < begin[queue[i] + 1]; ++k) {
+        const std::uint32_t v = neighbour[k];
+        if (forest.depth[v] != none) continue;
+        forest.depth[v] = forest.depth[queue[i]] + 1;
+        forest.parent[v] = queue[i];
+        queue.push_back(v);
+      }
+  }
+  return forest;
+}
+
+/// Where the two paths to the root meet.
+std::uint32_t meeting(const Forest& forest, std::uint32_t a, std::uint32_t b) {
+  while (a != b) {
+    std::uint32_t& deeper = forest.depth[a] >= forest.depth[b] ? a : b;
+    deeper = forest.parent[deeper];
+  }
+  return a;
+}
+
+std::vector<std::uint32_t> loop_through(const Forest& forest, const Edge& edge) {
+  const std::uint32_t top = meeting(forest, edge.low, edge.high);
+  std::vector<std::uint32_t> loop;
+  for (std::uint32_t v = edge.low; v != top; v = forest.parent[v]) loop.push_back(v);
+  loop.push_back(top);
+  const auto middle = static_cast<std::ptrdiff_t>(loop.size());
+  for (std::uint32_t v = edge.high; v != top; v = forest.parent[v]) loop.push_back(v);
+  std::reverse(loop.begin() + middle, loop.end());
+  return loop;
+}
+
+} // namespace
+
+std::vector<std::vector<std::uint32_t>> handle_loops(std::span<const Triangle> triangles, std::size_t vertices) {
+  const std::vector<Edge> edges = edges_of(triangles, vertices);
+  const Forest forest = breadth_first(edges, vertices);
+  // The cotree takes the edges with the longest loops, so that the shortest are left.
+  struct Candidate {
+    std::uint32_t length, edge;
+  };
+  std::vector<Candidate> candidates;
+  candidates.reserve(edges.size());
+  for (std::uint32_t i = 0; i < edges.size(); ++i) {
+    const Edge& e = edges[i];
+    if (forest.parent[e.low] == e.high || forest.parent[e.high] == e.low) continue;
+    const std::uint32_t top = meeting(forest, e.low, e.high);
+    candidates.push_back({forest.depth[e.low] + forest.depth[e.high] + 1 - 2 * forest.depth[top], i});
+  }
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.length > b.length || (a.length == b.length && a.edge < b.edge);
+  });
+  DisjointSets cotree(triangles.size());
+  std::vector<std::vector<std::uint32_t>> loops;
+  for (const Candidate& c : candidates) {
+    const Edge& e = edges[c.edge];
+    if (cotree.find(e.left) == cotree.find(e.right))
+      loops.push_back(loop_through(forest, e));
+    else
+      cotree.unite(e.left, e.right);
+  }
+  std::reverse(loops.begin(), loops.end());
+  return loops;
+}
+
+} // namespace eigencrust
