@@ -43,10 +43,12 @@ Parsed parse(CLI::App& app, const Arguments& arguments);
 /// Several inputs are several scans of one scene.
 struct InputOptions {
   std::vector<std::string> paths;
-  std::string columns, scan_index, pcd_viewpoint = "auto";
+  std::string columns, scan_index, sensors, pcd_viewpoint = "auto";
+  std::vector<std::string> sensor, sensor_direction; ///< one per input
 };
 void add_input_options(CLI::App& app, InputOptions& options);
-/// Reads and merges; fills files with path, hash and count.
+/// Reads and merges; fills files with path, hash and count. Sensors that the options name take the place of
+/// those that the files hold.
 /// \param notes if given, gets what each file's reader had to say
 PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& files,
                        std::vector<std::vector<std::string>>* notes = nullptr);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <sstream>
@@ -43,6 +44,35 @@ PcdViewpoint viewpoint_of(const std::string& name) {
   return name == "none" ? PcdViewpoint::none : PcdViewpoint::automatic;
 }
 
+[[noreturn]] void fail_usage(const std::string& cause, const std::string& remedy) {
+  throw Error(ErrorKind::usage, "command line", cause, remedy);
+}
+
+/// One sensor per input, or none. \throws Error{usage}
+std::vector<Sensor> sensors_of_inputs(const InputOptions& options) {
+  const bool has_places = !options.sensor.empty(), has_directions = !options.sensor_direction.empty();
+  if (has_places + has_directions + !options.sensors.empty() > 1)
+    fail_usage("--sensor, --sensor-direction and --sensors exclude one another",
+               "name all sensors in one way; a file for --sensors may hold them all");
+  std::vector<Sensor> sensors;
+  for (const std::string& text : has_directions ? options.sensor_direction : options.sensor) {
+    Vec3 place = parse_point(text);
+    if (has_directions) {
+      const double length = norm(place);
+      if (!(length > 0) || !std::isfinite(length))
+        fail_usage("the direction '" + text + "' has no length", "give the direction from the surface to the scanner");
+      place = (1 / length) * place;
+    }
+    if (!is_finite(place)) fail_usage("the sensor '" + text + "' is not finite", "give three finite numbers x,y,z");
+    sensors.push_back({place, has_directions});
+  }
+  if (!sensors.empty() && sensors.size() != options.paths.size())
+    fail_usage("there are " + std::to_string(sensors.size()) + " sensors for " + std::to_string(options.paths.size()) +
+                   " inputs",
+               "name one for each input, in order");
+  return sensors;
+}
+
 } // namespace
 
 void catch_interrupts() {
@@ -65,8 +95,9 @@ Parsed parse(CLI::App& app, const Arguments& arguments) {
 }
 
 void add_input_options(CLI::App& app, InputOptions& options) {
-  app.add_option("INPUT", options.paths,
-                 "Point clouds (ply e57 ptx pcd pts xyz txt asc csv obj off stl); several are several scans")
+  app.add_option(
+         "INPUT", options.paths,
+         "Point clouds (ply e57 las ptx pcd pts npz npy xyz txt asc csv obj off stl); several are several scans")
       ->required();
   app.add_option("--columns", options.columns,
                  "Names of a text file's columns in order, e.g. x,y,z,red,green,blue; - skips one");
@@ -77,16 +108,31 @@ void add_input_options(CLI::App& app, InputOptions& options) {
                  "points) or none")
       ->check(CLI::IsMember({"auto", "sensor", "pose", "none"}))
       ->capture_default_str();
+  app.add_option("--sensor", options.sensor,
+                 "x,y,z where the scanner stood for an input, instead of what the file says; repeat for each input")
+      ->allow_extra_args(false);
+  app.add_option("--sensor-direction", options.sensor_direction,
+                 "x,y,z direction from the surface to the scanner, for parallel rays; repeat for each input")
+      ->allow_extra_args(false);
+  app.add_option("--sensors", options.sensors,
+                 "File with a row scan,x,y,z for each scan, or scan,dx,dy,dz under a header; none: ignore all sensors");
 }
 
 PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& files,
                        std::vector<std::vector<std::string>>* notes) {
-  const ReadOptions read_options{split(options.columns), viewpoint_of(options.pcd_viewpoint)};
+  const std::vector<Sensor> sensors = sensors_of_inputs(options);
+  // What is replaced need not be looked for.
+  const ReadOptions read_options{split(options.columns), viewpoint_of(options.pcd_viewpoint),
+                                 sensors.empty() && options.sensors.empty()};
   PointCloud cloud;
   for (const std::string& path : options.paths) {
     std::vector<std::string> said;
     PointCloud next = read_point_cloud(path, read_options, &said);
     if (notes != nullptr) notes->push_back(std::move(said));
+    if (!sensors.empty()) {
+      next.sensors.assign(1, sensors[files.size()]);
+      next.sensor_of.assign(next.points.size(), 0);
+    }
     files.push_back({path, sha256_of_file(path), next.points.size()});
     if (files.size() == 1)
       cloud = std::move(next);
@@ -96,10 +142,10 @@ PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& file
   }
   if (!options.scan_index.empty()) {
     if (options.paths.size() > 1)
-      throw Error(ErrorKind::usage, "command line", "--scan-index goes with a single input",
-                  "leave it out: several inputs are several scans");
+      fail_usage("--scan-index goes with a single input", "leave it out: several inputs are several scans");
     cloud.scan_index = read_scan_index(options.scan_index, cloud.points.size());
   }
+  if (!options.sensors.empty() && options.sensors != "none") read_scan_sensors(options.sensors, cloud);
   return cloud;
 }
 

@@ -142,6 +142,7 @@ void check_outputs(const Request& r, OutputKind kind) {
   std::error_code ignored;
   std::vector<std::string> inputs = r.input.paths;
   inputs.push_back(r.input.scan_index);
+  inputs.push_back(r.input.sensors);
   for (const std::string& path : {r.output, r.report})
     for (const std::string& input : inputs)
       if (fs::equivalent(input, path, ignored))

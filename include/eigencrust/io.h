@@ -28,15 +28,18 @@ struct ReadOptions {
   /// an attribute, "-" skips it). Empty: from the header line, else x y z and the rest as columns.
   std::vector<std::string> columns{};
   PcdViewpoint pcd_viewpoint = PcdViewpoint::automatic;
+  bool sensors = true; ///< false: what the file, and those beside it, say of sensors is left out
 };
 
-/// Reads a point cloud. Formats with a signature of their own (ply, e57, pcd, ptx, off) are known by
-/// it; otherwise the format follows the extension (xyz, txt, asc, csv, pts, obj, stl; upper case too),
+/// Reads a point cloud. Formats with a signature of their own (ply, e57, las, pcd, ptx, off, npy, npz) are
+/// known by it; otherwise the format follows the extension (xyz, txt, asc, csv, pts, obj, stl; upper case too),
 /// and the content where the extension says nothing. From a mesh its vertices are taken, those of an
 /// STL once per distinct position.
 /// Text numbers are read independently of the locale. NaN and infinite rows are kept; rows that a
-/// scanner marked as empty (ptx, e57) are not.
-/// Sensors are taken from the poses of e57 and ptx scans and from the VIEWPOINT of a pcd file.
+/// scanner marked as empty (ptx, e57) or deleted (las) are not.
+/// Sensors are taken from the poses of e57 and ptx scans, the VIEWPOINT of a pcd file, the array
+/// sensor_position of an npz file, columns sx sy sz (or x_origin y_origin z_origin, or vp_x vp_y vp_z) of
+/// any format, and from what COLMAP writes beside a ply file: NAME.ply.vis with images.bin or images.txt.
 /// \param notes if given, gets a sentence for each thing that was dropped or could be read in two ways
 /// \throws Error{input} naming file and line (text) or byte offset (binary) when the file is missing,
 ///         truncated, malformed or of an unknown format; memory is never allocated by a count that the
@@ -58,6 +61,13 @@ void append_scan(PointCloud& cloud, PointCloud next);
 /// Scan numbers from a file: raw bytes (.u8), or text with one number per row.
 /// \throws Error{input} when there are not `points` of them.
 std::vector<std::uint32_t> read_scan_index(const std::filesystem::path& path, std::size_t points);
+
+/// Gives each point the sensor of its scan, in place of those that the cloud has. The file holds text, a row
+/// per scan: scan,x,y,z or, for scans in order, x,y,z; or directions (parallel rays, surface -> scanner, of
+/// any length) under a header that names dx, dy and dz. Points of scans without a row have no sensor.
+/// \throws Error{input} naming the line, also for a scan beyond the last one and where rows without numbers
+///         are not as many as the scans
+void read_scan_sensors(const std::filesystem::path& path, PointCloud& cloud);
 
 enum class CoordinateType : std::uint8_t {
   automatic, ///< float32 where that keeps all vertices apart and within 1e-3 of `spacing`, else float64

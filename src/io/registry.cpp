@@ -9,7 +9,9 @@
 #include <eigencrust/io.h>
 
 #include "io/attributes.h"
+#include "io/colmap.h"
 #include "io/formats.h"
+#include "io/sensor_columns.h"
 #include "io/text.h"
 
 namespace eigencrust {
@@ -33,11 +35,12 @@ struct Format {
 };
 
 PointCloud read_ply_points(const FileContent& file, const ReadOptions&, Notes&) { return io::read_ply_cloud(file); }
-PointCloud read_e57_points(const FileContent& file, const ReadOptions&, Notes& notes) {
-  return io::read_e57(file, notes);
-}
-PointCloud read_ptx_points(const FileContent& file, const ReadOptions&, Notes& notes) {
-  return io::read_ptx(file, notes);
+PointCloud read_npy_points(const FileContent& file, const ReadOptions&, Notes&) { return io::read_npy(file); }
+
+/// Formats that can be read in one way only, but have something to say.
+template <PointCloud (*read)(const FileContent&, Notes&)>
+PointCloud read_noted(const FileContent& file, const ReadOptions&, Notes& notes) {
+  return read(file, notes);
 }
 
 /// Rows of text.
@@ -61,16 +64,20 @@ Body write_rows(const PointCloud& cloud, const WriteOptions& options, WriteResul
   return io::prepare_xyz(cloud, options, separator, result);
 }
 
-constexpr std::array<Format, 12> formats = {{
+constexpr std::array<Format, 16> formats = {{
     {"ply", read_ply_points, io::read_ply_mesh, io::prepare_ply, io::prepare_ply},
     {"xyz", read_rows<io::read_xyz>, nullptr, nullptr, write_rows<' '>},
     {"txt", read_rows<io::read_xyz>, nullptr, nullptr, write_rows<' '>},
     {"asc", read_rows<io::read_xyz>, nullptr, nullptr, write_rows<' '>},
     {"csv", read_rows<io::read_xyz>, nullptr, nullptr, write_rows<','>},
     {"pts", read_rows<io::read_pts>},
-    {"e57", read_e57_points},
-    {"ptx", read_ptx_points},
+    {"e57", read_noted<io::read_e57>},
+    {"ptx", read_noted<io::read_ptx>},
     {"pcd", io::read_pcd},
+    {"las", read_noted<io::read_las>},
+    {"laz", read_noted<io::read_las>}, // which says why it cannot
+    {"npz", read_noted<io::read_npz>},
+    {"npy", read_npy_points},
     {"obj", read_vertices<io::read_obj>, io::read_obj, io::prepare_obj},
     {"off", read_vertices<io::read_off>, io::read_off, io::prepare_off},
     {"stl", read_vertices<io::read_stl>, io::read_stl, io::prepare_stl},
@@ -114,6 +121,9 @@ const Format* sniff_text(const FileContent& file) {
 const Format* sniff_signature(const FileContent& file) {
   const std::string_view bytes = file.bytes();
   if (bytes.starts_with("ASTM-E57")) return find_format("e57");
+  if (bytes.starts_with("LASF")) return find_format("las");
+  if (bytes.starts_with("\x93NUMPY")) return find_format("npy");
+  if (bytes.starts_with("PK\3\4") || bytes.starts_with("PK\5\6")) return find_format("npz");
   std::string_view first = bytes.substr(0, std::min(bytes.find_first_of("\r\n"), bytes.size()));
   const std::string_view word = io::next_word(first);
   if (word == "ply") return find_format("ply");
@@ -145,10 +155,26 @@ const Format& format_for_reading(const FileContent& file, bool mesh_wanted) {
   if (format == nullptr) format = sniff(file);
   if (format == nullptr)
     file.fail("the format is not known",
-              "convert the file to ply, e57, ptx, pcd, pts, xyz, txt, asc, csv, obj, off or stl");
+              "convert the file to ply, e57, las, ptx, pcd, pts, npz, npy, xyz, txt, asc, csv, obj, off or stl");
   if (mesh_wanted && format->read_mesh == nullptr)
     file.fail("the file holds points, not a mesh", "use a ply, obj, off or stl file");
   return *format;
+}
+
+/// From the files that COLMAP writes beside a fused cloud.
+void add_colmap_sensors(const std::filesystem::path& path, PointCloud& cloud, Notes& notes) {
+  const std::filesystem::path visibility = path.string() + ".vis";
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(visibility, ignored)) return;
+  const auto images = io::find_colmap_images(path);
+  if (!images) {
+    notes.push_back(visibility.filename().string() +
+                    " is not used: there is no images.bin or images.txt, neither beside it nor in sparse");
+    return;
+  }
+  io::set_colmap_sensors(cloud, FileContent(visibility), io::read_colmap_images(FileContent(*images)));
+  notes.push_back(visibility.filename().string() + " and " + images->string() +
+                  " tell the camera that saw each point; of several the one nearest to their mean direction");
 }
 
 [[noreturn]] void fail_memory(const std::filesystem::path& path) {
@@ -159,6 +185,18 @@ const Format& format_for_reading(const FileContent& file, bool mesh_wanted) {
 [[noreturn]] void fail_extension(const std::filesystem::path& path, bool mesh) {
   throw Error(ErrorKind::input, path.string(), "there is no writer for this file name's extension",
               mesh ? "use .ply, .obj, .off or .stl" : "use .ply, .xyz, .txt, .asc or .csv");
+}
+
+/// Are the sensors among the attributes, so that they are written?
+bool columns_tell_sensors(const PointCloud& cloud) {
+  const auto columns = io::find_sensor_columns(cloud);
+  if (!columns || cloud.sensor_of.size() != columns->places.size()) return false;
+  for (std::size_t i = 0; i < cloud.sensor_of.size(); ++i) {
+    const std::uint32_t s = cloud.sensor_of[i];
+    const Vec3& place = columns->places[i];
+    if (s == PointCloud::no_sensor ? is_finite(place) : cloud.sensors[s] != Sensor{place, false}) return false;
+  }
+  return true;
 }
 
 void check_mesh(const TriangleMesh& mesh) {
@@ -175,16 +213,28 @@ void check_mesh(const TriangleMesh& mesh) {
 } // namespace
 
 PointCloud io::read_cloud(const FileContent& file, const ReadOptions& options, Notes& notes) {
-  return format_for_reading(file, false).read_cloud(file, options, notes);
+  PointCloud cloud = format_for_reading(file, false).read_cloud(file, options, notes);
+  if (!options.sensors) {
+    cloud.sensors.clear();
+    cloud.sensor_of.clear();
+  } else if (cloud.sensors.empty()) {
+    if (const auto columns = find_sensor_columns(cloud)) {
+      set_sensor_rows(cloud, columns->places);
+      notes.push_back(columns->names + " read as the sensor's position of each point");
+    }
+  }
+  return cloud;
 }
 
 TriangleMesh io::read_mesh(const FileContent& file) { return format_for_reading(file, true).read_mesh(file); }
 
 PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options, Notes* notes) {
   try {
-    const FileContent file(path);
     Notes unused;
-    return io::read_cloud(file, options, notes == nullptr ? unused : *notes);
+    Notes& said = notes == nullptr ? unused : *notes;
+    PointCloud cloud = io::read_cloud(FileContent(path), options, said);
+    if (options.sensors && cloud.sensors.empty()) add_colmap_sensors(path, cloud, said);
+    return cloud;
   } catch (const std::bad_alloc&) {
     fail_memory(path);
   } catch (const std::length_error&) {
@@ -219,7 +269,8 @@ WriteResult write_point_cloud(const std::filesystem::path& path, const PointClou
   WriteResult result;
   const Body body = format->write_cloud(cloud, options, result);
   if (!cloud.scan_index.empty()) result.warnings.emplace_back("the scan numbers of the points are not written");
-  if (!cloud.sensors.empty()) result.warnings.emplace_back("the sensors of the points are not written");
+  if (!cloud.sensors.empty() && !columns_tell_sensors(cloud))
+    result.warnings.emplace_back("the sensors of the points are not written");
   write_file_atomically(path, body);
   return result;
 }
