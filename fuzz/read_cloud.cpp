@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes are either read or refused with an Error. The environment variable EIGENCRUST_FUZZ_FORMAT is
 // the extension of the file that they are taken for.
+#include <zlib.h>
+
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -28,6 +30,25 @@ void check(const PointCloud& cloud) {
   for (const Sensor& sensor : cloud.sensors) require(is_finite(sensor.place));
 }
 
+/// Makes the checksums of the stored members right.
+void repair_zip(std::string& bytes) {
+  constexpr std::size_t entry = 46, local = 30;
+  if (!bytes.starts_with("PK")) return;
+  const auto number = [&](std::size_t at, std::size_t size) {
+    std::uint64_t value = 0;
+    std::memcpy(&value, bytes.data() + at, size);
+    return value;
+  };
+  for (std::size_t at = 0; (at = bytes.find("PK\1\2", at)) != std::string::npos && at + entry <= bytes.size(); ++at) {
+    const std::uint64_t method = number(at + 10, 2), size = number(at + 20, 4), header = number(at + 42, 4);
+    if (method != 0 || header + local > bytes.size()) continue;
+    const std::uint64_t begin = header + local + number(header + 26, 2) + number(header + 28, 2);
+    if (begin > bytes.size() || size > bytes.size() - begin) continue;
+    const auto crc = static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()) + begin, size));
+    std::memcpy(bytes.data() + at + 16, &crc, 4);
+  }
+}
+
 /// Makes length and checksums right: the fuzzer would hardly ever get past them.
 void repair_e57(std::string& bytes) {
   constexpr std::size_t page = 1024, content = 1020;
@@ -48,6 +69,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const char* const extension = std::getenv("EIGENCRUST_FUZZ_FORMAT");
   std::string bytes(reinterpret_cast<const char*>(data), size);
   repair_e57(bytes);
+  repair_zip(bytes);
   const io::FileContent file(std::string("input") + (extension == nullptr ? "" : std::string(".") + extension), bytes);
   for (const PcdViewpoint mode : {PcdViewpoint::automatic, PcdViewpoint::pose}) {
     ReadOptions options;

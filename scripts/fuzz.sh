@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Feeds the readers with damaged files (libFuzzer, with the address and undefined-behaviour sanitizers).
-# Seeds are the real files in $EIGENCRUST_DATA/formats, else ../shared/data/formats, where there are any.
+# Seeds are those in fuzz/seeds and the real files in $EIGENCRUST_DATA/formats, else ../shared/data/formats,
+# where there are any.
 # Inputs that fail are left in build-fuzz/found. Usage: scripts/fuzz.sh [SECONDS per format, 5 by default] [FORMAT...]
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/packages.sh"
@@ -9,7 +10,7 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/packages.sh"
 seconds=${1:-5}
 case $seconds in '' | *[!0-9]*) fail "SECONDS is a whole number, not '$seconds'" ;; esac
 formats=("${@:2}")
-[ ${#formats[@]} -gt 0 ] || formats=(e57 ptx pcd pts ply obj off stl xyz csv)
+[ ${#formats[@]} -gt 0 ] || formats=(e57 las npz npy ptx pcd pts ply obj off stl xyz csv)
 
 install_packages "${build_packages[@]}" "${fuzz_packages[@]}"
 cmake -S "$repository" -B "$repository/build-fuzz" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Release \
@@ -25,8 +26,9 @@ for format in "${formats[@]}"; do
   corpus=$repository/build-fuzz/corpus/$format
   mkdir -p "$corpus"
   # Large seeds would slow the fuzzer down and teach it nothing that small ones do not.
-  [ ! -d "$data/formats/$format" ] ||
-    find "$data/formats/$format" -type f -size -64k -exec cp --no-preserve=mode -t "$corpus" {} +
+  for seeds in "$repository/fuzz/seeds/$format" "$data/formats/$format"; do
+    [ ! -d "$seeds" ] || find "$seeds" -type f -size -64k -exec cp --no-preserve=mode -t "$corpus" {} +
+  done
   printf '== %s, %s s\n' "$format" "$seconds"
   EIGENCRUST_FUZZ_FORMAT=$format "$repository/build-fuzz/fuzz_read_cloud" -max_total_time="$seconds" -timeout=10 \
     -rss_limit_mb=2048 -malloc_limit_mb=1024 -max_len=65536 -print_final_stats=1 -verbosity=0 -print_funcs=0 \

@@ -134,6 +134,14 @@ test_scan_index_of_wrong_length() {
   expect_files cloud.xyz scans.txt
 }
 
+test_sensors_that_do_not_fit() {
+  sphere 100 >cloud.xyz
+  printf '0,1,2,3\n1,1,2,3\n' >poses.csv
+  expect_error 3 "poses.csv:2" cloud.xyz -o mesh.ply --sensors poses.csv
+  expect_error 3 "missing.csv" cloud.xyz -o mesh.ply --sensors missing.csv
+  expect_files cloud.xyz poses.csv
+}
+
 test_no_surface() {
   # A tetrahedron around a fifth point: four tetrahedra, and a point known to be outside in each of them.
   printf '0 0 0\n1 0 0\n0 1 0\n0 0 1\n0.2 0.2 0.2\n' >cloud.xyz

@@ -61,7 +61,8 @@ test_values_that_make_no_sense() {
     "--questionable later" "--second-stage third" "--eigensolver magic" "--smoothing none" "--smooth -1" \
     "--smooth 1001" "--tolerance 0" "--tolerance nan" "--max-steps 0" "--outside-point 1,2" \
     "--inside-point 1,2,three" "--inside-point 1,2,3,4" "--facade up" "--threads -1" "--threads 2000" \
-    "--threads many" "--progress loud" "--preset"; do
+    "--threads many" "--progress loud" "--preset" "--sensor 1,2" "--sensor 1,2,inf" "--sensor-direction 0,0,0" \
+    "--sensor 1,2,3 --sensor 1,2,3" "--sensor 1,2,3 --sensor-direction 1,2,3" "--sensor 1,2,3 --sensors none"; do
     # shellcheck disable=SC2086
     expect_error 2 "" cloud.xyz -o mesh.ply $options
   done
@@ -91,6 +92,7 @@ test_output_is_an_input() {
   expect_error 2 "input" cloud.ply -o ./cloud.ply
   expect_error 2 "input" cloud.ply -o link.ply
   expect_error 2 "input" cloud.xyz cloud.ply -o cloud.ply
+  expect_error 2 "input" cloud.xyz -o cloud.ply --sensors cloud.ply
   same cloud.ply copy
 }
 

@@ -79,6 +79,38 @@ test_info_tells_of_sensors() {
   expect_error 2 "--pcd-viewpoint" info a.pcd --pcd-viewpoint maybe
 }
 
+test_info_tells_of_sensors_by_options() {
+  sphere 300 >a.xyz
+  sphere 300 2 >b.xyz
+  expect 0 info a.xyz --sensor 1,2,3.25
+  grep -qF 'sensors: 1 at (1, 2, 3.25)' out || die "no position"
+  expect 0 info a.xyz b.xyz --sensor-direction 0,3,4 --sensor-direction=-1,0,0
+  grep -qF 'sensors: 2 at infinity along (0, 0.6, 0.8), infinity along (-1, 0, 0)' out || die "no directions"
+  # By scans: the files in order, or the scan index.
+  printf 'scan,x,y,z\n1,7,8,9\n' >poses.csv
+  expect 0 info a.xyz b.xyz --sensors poses.csv
+  grep -qF 'sensors: 1 at (7, 8, 9); 300 points without' out || die "no poses"
+  awk 'BEGIN { for (i = 0; i < 300; ++i) print (i < 100 ? 0 : 1) }' >scans.txt
+  printf 'dx dy dz\n0 0 2\n0 0 -2\n' >directions.csv
+  expect 0 info a.xyz --scan-index scans.txt --sensors directions.csv --json
+  equal sensors "$(value out /sensor_count)" 2
+  equal "points of the second" "$(value out /sensors/1/points)" 200
+  equal "direction of the second" "$(value out /sensors/1/direction/2)" -1.0
+  # What the file holds is replaced, or left out.
+  { printf '# x y z sx sy sz\n'; sphere 300 | sed 's/$/ 1 2 3/'; } >c.xyz
+  expect 0 info c.xyz
+  grep -qF "sx sy sz read as the sensor's position" out || die "does not say that the columns were read"
+  grep -qF 'sensors: 1 at (1, 2, 3)' out || die "no columns"
+  expect 0 info c.xyz --sensor 4,5,6
+  grep -qF 'sensors: 1 at (4, 5, 6)' out || die "not replaced"
+  expect 0 info c.xyz --sensors none
+  grep -qF 'sensors: none known' out || die "sensors in spite of none"
+  expect 0 c.xyz -o mesh.ply --sensors none
+  expect 0 orient c.xyz -o cloud.ply
+  expect 0 info cloud.ply
+  grep -qF 'sensors: 1 at (1, 2, 3)' out || die "the columns were not written"
+}
+
 test_compare_with_itself() {
   sphere 1000 >cloud.xyz
   expect 0 cloud.xyz -o mesh.ply

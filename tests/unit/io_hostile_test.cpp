@@ -8,7 +8,9 @@
 #include <eigencrust/io.h>
 
 #include "e57_bytes.h"
+#include "las_bytes.h"
 #include "support.h"
+#include "zip_bytes.h"
 
 namespace eigencrust {
 namespace {
@@ -73,6 +75,16 @@ std::vector<Sample> samples() {
   for (const char* name : {"X", "Y", "Z"})
     scan.fields.push_back({std::string("<cartesian") + name + " type=\"Float\"/>", std::string(16, 'a')});
   result.push_back({"a.e57", e57_file({scan})});
+  LasTestFile las{.minor = 4, .record_bytes = 23, .records = {std::string(23, 'a'), std::string(23, 'b')}};
+  las.variable_records = las_record("LASF_Spec", 4, las_extra(12, 8, "pair") + las_extra(1, 0, "byte"));
+  las.variable_count = 1;
+  result.push_back({"a.las", las.bytes()});
+  const std::string array = npy_file("<f4", "(2, 3)", std::string(24, 'a'));
+  result.push_back({"a.npy", array});
+  result.push_back({"a.npz", zip_file({{"points.npy", array, deflate_stored(array), 8},
+                                       {"sensor_position.npy", npy_file("<f8", "(3,)", std::string(24, 'a'), true)},
+                                       {"l.npy", npy_file("|u1", "(2,)", "12")}})});
+  result.push_back({"b.npz", zip_file({{.name = "a.npy", .content = array, .large = true}})});
   result.push_back({"unknown", "1 2 3\n4 5 6\n"});
   return result;
 }

@@ -113,7 +113,6 @@ INSTANTIATE_TEST_SUITE_P(All, IoMalformedFiles,
                                            Refused{"formats/ply/no_vertex.ply", "no vertex element"},
                                            Refused{"formats/ply/sized_dims.ply", "no property 'z'"},
                                            Refused{"formats/ply/unsized_dims.ply", "no property 'z'"},
-                                           Refused{"formats/las/simple.las", "format is not known"},
                                            Refused{"bunny/scan_index.u8", "format is not known"}));
 
 std::string names_of(const PointCloud& cloud) {

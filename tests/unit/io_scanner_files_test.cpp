@@ -77,6 +77,27 @@ INSTANTIATE_TEST_SUITE_P(
         {"formats/pcd/utm17_comma.pcd", 10, 10, {{289814.15, 4320978.61, 170.58}, {289818.5, 4320980.59, 170.76}}, 1, 0},
         {"formats/pcd/utm17_space.pcd", 10, 10, {{289814.15, 4320978.61, 170.58}, {289818.5, 4320980.59, 170.76}}, 1, 0},
         {"formats/pcd/utm17_tab.pcd", 10, 10, {{289814.15, 4320978.61, 170.58}, {289818.5, 4320980.59, 170.76}}, 1, 0},
+        {"formats/las/1.2-with-color.las", 1065, 1065, {{635619.85, 848899.7000000001, 406.59000000000003}, {638982.55, 853535.43, 586.38}}, 1, 0},
+        {"formats/las/100-points.las", 100, 100, {{635717.85, 848953.74, 409.19}, {638944.9500000001, 853483.3, 530.61}}, 1, 0},
+        {"formats/las/4_6_crop.las", 23875, 23875, {{1639600.0, 1454500.02, 7077.92}, {1639799.98, 1454700.0, 7139.7}}, 1, 0},
+        {"formats/las/bad_vlr_count.las", 10, 10, {{289814.15, 4320978.61, 170.58}, {289818.5, 4320980.59, 170.76}}, 1, 0},
+        {"formats/las/extrabytes.las", 1065, 1065, {{635619.85, 848899.7000000001, 406.59000000000003}, {638982.55, 853535.43, 586.38}}, 1, 0},
+        {"formats/las/gps-time-nan.las", 1, 1, {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}, 1, 0},
+        {"formats/las/interesting.las", 1065, 1065, {{635619.85, 848899.7000000001, 406.59000000000003}, {638982.55, 853535.43, 586.38}}, 1, 0},
+        {"formats/las/no-points.las", 0, 0, {}, 0, 0},
+        {"formats/las/prec3.las", 110, 110, {{636034.83, 848941.72, 407.32}, {637177.98, 849442.38, 496.19}}, 1, 0},
+        {"formats/las/simple.las", 1065, 1065, {{635619.85, 848899.7000000001, 406.59000000000003}, {638982.55, 853535.43, 586.38}}, 1, 0},
+        {"formats/las/simple1_4.las", 22600, 22600, {{1.0, 1.0, 44.0}, {226.00000000000003, 100.00000000000003, 254.0}}, 1, 0},
+        {"formats/las/spurious.las", 1065, 1065, {{-124.0687348, 44.0500086, 123.93}, {-123.0625001, 44.062497199999996, 178.73}}, 1, 0},
+        {"formats/las/synthetic_test.las", 1, 1, {{1.0, 2.0, 3.0}, {1.0, 2.0, 3.0}}, 1, 0},
+        {"formats/las/test1_4.las", 1000, 1000, {{1694038.4456374517, 1816492.7062700584, 5592.7499174683535}, {1694539.677014474, 1816497.9762624602, 5599.069686751426}}, 1, 0},
+        {"formats/las/utm15.las", 1, 1, {{470692.44, 4602888.9, 16.0}, {470692.44, 4602888.9, 16.0}}, 1, 0},
+        {"formats/las/vegetation_1_3.las", 10683, 10683, {{-98451.205, -55975.417, -81460.091}, {-98447.447, -55969.405, -81455.203}}, 1, 0},
+        {"ignatius/99.npz", 10000, 10000, {{-0.28094682212417316, -0.2613720421202847, -0.4072239596882981}, {0.3085198445424935, 0.3286612912130486, 0.4203093736450354}}, 1, 8},
+        {"reconbench/anchor_mvs.npz", 3000, 3000, {{-37.51860379458233, -23.471559451559692, -32.08193675904631}, {37.527743840290356, 23.472213928766866, 32.00229557372171}}, 1, 10},
+        {"reconbench/gargoyle_mvs.npz", 3000, 3000, {{-34.582719389881866, -37.24606006383558, -25.819623477811955}, {31.966514324402, 37.22891478514069, 26.79611349932095}}, 1, 10},
+        {"reconbench/lordquas_mvs.npz", 3000, 3000, {{-18.419247032004325, -37.460760198173816, -17.498084789147033}, {18.415821014518066, 36.89121073982383, 17.0245350185508}}, 1, 10},
+        {"reconbench/anchor_points.npz", 100000, 100000, {{-55.875, -43.65625, -51.6875}, {59.625, 48.0625, 50.59375}}, 1, 0},
         {"range_images/capture0001.pcd", 307200, 249647, {{-1.7228200435638428, -1.1952769756317139, 1.5119999647140503}, {1.223436951637268, 0.7809628844261169, 3.1570000648498535}}, 1, 0},
         {"range_images/milk_cartoon_all_small_clorox.pcd", 307200, 241407, {{-1.0607999563217163, -0.21966859698295593, -2.062999963760376}, {1.152493953704834, 0.8692334294319153, -0.5009999871253967}}, 1, 0},
     }));
@@ -92,7 +113,10 @@ const std::vector<Refused> refused_files = {
     {"formats/e57/test filename äöü.e57", "holds no scan at byte 88"},
     {"formats/e57/测试点云.e57", "holds no scan at byte 88"},
     {"formats/e57/PinholeImageWithDistortionParameters.e57", "holds no scan at byte 1268"},
-    {"formats/pcd/missingheader.pcd", "missingheader.pcd:1"}};
+    {"formats/pcd/missingheader.pcd", "missingheader.pcd:1"},
+    {"formats/las/garbage_nVariableLength.las", "promises 719 points of 20 bytes, but the file ends at byte 14601 ("},
+    {"formats/las/simple.laz", "compressed (LAZ), which is not read, at byte 104"},
+    {"ignatius/99_3dt.npz", "no array is named 'points' among 'vertices'"}};
 
 TEST(IoScannerFilesRefused, NamePlaceAndCause) {
   EIGENCRUST_NEED_DATA(data_path("formats/e57"));
@@ -124,6 +148,35 @@ TEST(IoScannerFilesValues, SensorsAndColumns) {
   const PointCloud b = read_point_cloud(data_path("formats/e57/bunnyInt32.e57"));
   ASSERT_EQ(a.points.size(), b.points.size());
   for (std::size_t i = 0; i < a.points.size(); ++i) ASSERT_LT(distance(a.points[i], b.points[i]), 1e-6) << i;
+}
+
+// First and last record as an independent script unpacked them.
+TEST(IoScannerFilesValues, ColumnsOfLas) {
+  EIGENCRUST_NEED_DATA(data_path("formats/las/extrabytes.las"));
+  std::vector<std::string> notes;
+  const PointCloud cloud = read_point_cloud(data_path("formats/las/extrabytes.las"), {}, &notes);
+  EXPECT_THAT(notes, ::testing::ElementsAre("7 bytes of each point without a description left out"));
+  const auto value = [&](const char* name, std::size_t row) {
+    return attribute_value(*find_attribute(cloud.attributes, name), row);
+  };
+  EXPECT_EQ(value("intensity", 0), 143);
+  EXPECT_EQ(value("Intensity", 1064), 116);
+  EXPECT_EQ(value("Time", 0), 245380);
+  EXPECT_EQ(value("Colors", 2), 88);
+  EXPECT_EQ(value("Flags", 1), 1);
+  EXPECT_EQ(value("return_number", 0), 1);
+  EXPECT_EQ(value("number_of_returns", 0), 1);
+  EXPECT_EQ(value("scan_direction_flag", 0), 1);
+  EXPECT_EQ(value("scan_angle_rank", 0), -9);
+  EXPECT_EQ(value("user_data", 1064), 124);
+  EXPECT_EQ(value("point_source_id", 1064), 7334);
+  EXPECT_EQ(value("gps_time", 1064), 249773.20172406783);
+  EXPECT_EQ(value("blue", 1064), 136);
+
+  const PointCloud modern = read_point_cloud(data_path("formats/las/simple1_4.las"));
+  EXPECT_EQ(attribute_value(*find_attribute(modern.attributes, "green"), 0), 26624);
+  const PointCloud without_time = read_point_cloud(data_path("formats/las/gps-time-nan.las"));
+  EXPECT_TRUE(std::isnan(attribute_value(*find_attribute(without_time.attributes, "gps_time"), 0)));
 }
 
 } // namespace
