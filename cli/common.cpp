@@ -67,8 +67,8 @@ std::vector<Sensor> sensors_of_inputs(const InputOptions& options) {
     sensors.push_back({place, has_directions});
   }
   if (!sensors.empty() && sensors.size() != options.paths.size())
-    fail_usage("there are " + std::to_string(sensors.size()) + " sensors for " + std::to_string(options.paths.size()) +
-                   " inputs",
+    fail_usage("the sensors named, " + std::to_string(sensors.size()) + ", are not as many as the inputs, " +
+                   std::to_string(options.paths.size()),
                "name one for each input, in order");
   return sensors;
 }
