@@ -8,58 +8,81 @@ namespace eigencrust {
 namespace {
 
 constexpr std::uint32_t none = 0xffffffffu;
+// Nodes are matched inside blocks of this many, all threads at a time; what is left over is matched after.
+constexpr std::size_t matching_block = 32768;
 
-/// One greedy matching in node order: deterministic, and along a space-filling curve also compact.
-Aggregation match_pairs(const BorderedMatrix& m) {
-  const std::uint32_t n = m.interior_size();
-  Aggregation result;
-  result.aggregate.assign(n, none);
-  result.sign.assign(n, 1);
-  std::vector<double> scale(n);
-  for (std::uint32_t i = 0; i < n; ++i) scale[i] = m.diagonal[i] > 0 ? 1 / std::sqrt(m.diagonal[i]) : 0;
-  for (std::uint32_t i = 0; i < n; ++i) {
-    if (result.aggregate[i] != none) continue;
-    double best = 0;
-    std::uint64_t best_entry = 0;
-    bool found_free = false, found = false;
-    for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1]; ++e) {
-      const std::uint32_t j = m.column[e];
-      const bool is_free = result.aggregate[j] == none;
-      if (found_free && !is_free) continue;
-      const double strength = std::fabs(static_cast<double>(m.value[e])) * scale[j];
-      // A free neighbour beats any taken one; a node without free neighbours joins its strongest
-      // neighbour's aggregate, or coarsening would stall on stars.
-      if (!found || (is_free && !found_free) || strength > best) {
+/// Greedy matching in node order: deterministic, and along a space-filling curve also compact.
+class Matching {
+ public:
+  explicit Matching(const BorderedMatrix& m, const Threads& threads)
+      : m_(m), partner_(m.interior_size(), none), scale_(m.interior_size()) {
+    for_each_index(threads, scale_.size(), [&](std::size_t i) {
+      scale_[i] = m.diagonal[i] > 0 ? static_cast<float>(1 / std::sqrt(m.diagonal[i])) : 0.0f;
+    });
+    for_blocks(threads, scale_.size(), matching_block, [&](std::size_t begin, std::size_t end, std::size_t) {
+      match(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
+    });
+    match(0, m.interior_size());
+  }
+
+  /// The strongest neighbour of a node that found none free; none for a node without neighbours.
+  std::uint64_t strongest(std::uint32_t i) const {
+    float best = -1;
+    std::uint64_t entry = no_entry;
+    for (std::uint64_t e = m_.row_begin[i]; e < m_.row_begin[i + 1]; ++e) {
+      const float strength = std::fabs(m_.value[e]) * scale_[m_.column[e]];
+      if (strength > best) {
         best = strength;
-        best_entry = e;
-        found = true;
-        found_free = found_free || is_free;
+        entry = e;
       }
     }
-    if (!found) continue;
-    const std::uint32_t j = m.column[best_entry];
-    const std::int8_t relative = m.value[best_entry] <= 0 ? 1 : -1; // M_ij < 0 attracts
-    if (found_free) {
-      result.aggregate[i] = result.aggregate[j] = result.count++;
-      result.sign[j] = relative;
-    } else {
-      result.aggregate[i] = result.aggregate[j];
-      result.sign[i] = static_cast<std::int8_t>(relative * result.sign[j]);
+    return entry;
+  }
+  std::uint32_t partner(std::uint32_t i) const { return partner_[i]; }
+  static constexpr std::uint64_t no_entry = ~0ull;
+
+ private:
+  /// Pairs free nodes of [begin, end) with each other.
+  void match(std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      if (partner_[i] != none) continue;
+      float best = -1;
+      std::uint32_t with = none;
+      for (std::uint64_t e = m_.row_begin[i]; e < m_.row_begin[i + 1]; ++e) {
+        const std::uint32_t j = m_.column[e];
+        if (j < begin || j >= end || partner_[j] != none) continue;
+        const float strength = std::fabs(m_.value[e]) * scale_[j];
+        if (strength > best) {
+          best = strength;
+          with = j;
+        }
+      }
+      if (with == none) continue;
+      partner_[i] = with;
+      partner_[with] = i;
     }
   }
-  return result;
+
+  const BorderedMatrix& m_;
+  std::vector<std::uint32_t> partner_;
+  std::vector<float> scale_;
+};
+
+float entry_between(const BorderedMatrix& m, std::uint32_t i, std::uint32_t j) {
+  for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1]; ++e)
+    if (m.column[e] == j) return m.value[e];
+  return 0;
 }
 
-/// Members of each aggregate in increasing order (compressed rows).
-void list_members(const Aggregation& a, std::vector<std::uint32_t>& begin, std::vector<std::uint32_t>& member) {
-  begin.assign(a.count + 1, 0);
+void list_members(Aggregation& a) {
+  a.begin.assign(a.count + 1, 0);
   for (const std::uint32_t g : a.aggregate)
-    if (g != none) ++begin[g + 1];
-  for (std::uint32_t g = 0; g < a.count; ++g) begin[g + 1] += begin[g];
-  member.resize(begin[a.count]);
-  std::vector<std::uint32_t> cursor(begin.begin(), begin.end() - 1);
+    if (g != none) ++a.begin[g + 1];
+  for (std::uint32_t g = 0; g < a.count; ++g) a.begin[g + 1] += a.begin[g];
+  a.member.resize(a.begin[a.count]);
+  std::vector<std::uint32_t> cursor(a.begin.begin(), a.begin.end() - 1);
   for (std::uint32_t i = 0; i < a.aggregate.size(); ++i)
-    if (a.aggregate[i] != none) member[cursor[a.aggregate[i]]++] = i;
+    if (a.aggregate[i] != none) a.member[cursor[a.aggregate[i]]++] = i;
 }
 
 struct RowBlock {
@@ -67,16 +90,24 @@ struct RowBlock {
   std::vector<float> value;
 };
 
+struct Entry {
+  std::uint32_t column, order;
+  double value;
+  // Equal columns are added in the order of the members.
+  friend bool operator<(const Entry& a, const Entry& b) {
+    return a.column != b.column ? a.column < b.column : a.order < b.order;
+  }
+};
+
 /// Rows of one block of aggregates; lengths go to row_length.
-void galerkin_block(const BorderedMatrix& m, const Aggregation& a, const std::vector<std::uint32_t>& begin,
-                    const std::vector<std::uint32_t>& member, std::size_t first, std::size_t last, RowBlock& rows,
+void galerkin_block(const BorderedMatrix& m, const Aggregation& a, std::size_t first, std::size_t last, RowBlock& rows,
                     std::vector<std::uint64_t>& row_length, std::vector<double>& diagonal) {
-  std::vector<std::pair<std::uint32_t, double>> entries;
+  std::vector<Entry> entries;
   for (std::size_t g = first; g < last; ++g) {
     entries.clear();
     double self = 0;
-    for (std::uint32_t k = begin[g]; k < begin[g + 1]; ++k) {
-      const std::uint32_t i = member[k];
+    for (std::uint32_t k = a.begin[g]; k < a.begin[g + 1]; ++k) {
+      const std::uint32_t i = a.member[k];
       self += m.diagonal[i];
       for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1]; ++e) {
         const std::uint32_t j = m.column[e];
@@ -84,19 +115,18 @@ void galerkin_block(const BorderedMatrix& m, const Aggregation& a, const std::ve
         if (a.aggregate[j] == g)
           self += v;
         else
-          entries.emplace_back(a.aggregate[j], v);
+          entries.push_back({a.aggregate[j], static_cast<std::uint32_t>(entries.size()), v});
       }
     }
     diagonal[g] = self;
-    // Stable, so that equal columns are added in the order of the members.
-    std::stable_sort(entries.begin(), entries.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
+    std::sort(entries.begin(), entries.end());
     const std::size_t before = rows.column.size();
     for (std::size_t k = 0; k < entries.size();) {
-      const std::uint32_t c = entries[k].first;
+      const std::uint32_t c = entries[k].column;
       double sum = 0, size = 0;
-      for (; k < entries.size() && entries[k].first == c; ++k) {
-        sum += entries[k].second;
-        size += std::fabs(entries[k].second);
+      for (; k < entries.size() && entries[k].column == c; ++k) {
+        sum += entries[k].value;
+        size += std::fabs(entries[k].value);
       }
       if (std::fabs(sum) <= 1e-7 * size) continue;
       rows.column.push_back(c);
@@ -108,53 +138,85 @@ void galerkin_block(const BorderedMatrix& m, const Aggregation& a, const std::ve
 
 } // namespace
 
+Aggregation match_pairs(const BorderedMatrix& m, const Threads& threads) {
+  const std::uint32_t n = m.interior_size();
+  const Matching matching(m, threads);
+  Aggregation a;
+  a.aggregate.assign(n, none);
+  a.sign.assign(n, 1);
+  const auto relative = [](float entry) { return static_cast<std::int8_t>(entry <= 0 ? 1 : -1); }; // < 0 attracts
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t j = matching.partner(i);
+    if (j == none || j < i) continue;
+    a.aggregate[i] = a.aggregate[j] = a.count++;
+    a.sign[j] = relative(entry_between(m, i, j));
+  }
+  // A node without free neighbours joins its strongest neighbour, or coarsening would stall on stars. All
+  // its neighbours have partners: of two free neighbours one would have taken the other.
+  for (std::uint32_t i = 0; i < n; ++i) {
+    if (matching.partner(i) != none) continue;
+    const std::uint64_t e = matching.strongest(i);
+    if (e == Matching::no_entry) continue;
+    const std::uint32_t j = m.column[e];
+    a.aggregate[i] = a.aggregate[j];
+    a.sign[i] = static_cast<std::int8_t>(relative(m.value[e]) * a.sign[j]);
+  }
+  list_members(a);
+  return a;
+}
+
 BorderedMatrix galerkin(const BorderedMatrix& matrix, const Aggregation& a, const Threads& threads) {
   BorderedMatrix coarse;
-  std::vector<std::uint32_t> begin, member;
-  list_members(a, begin, member);
   coarse.diagonal.resize(a.count);
   coarse.row_begin.assign(a.count + 1, 0);
   constexpr std::size_t block = 4096;
   std::vector<RowBlock> blocks((a.count + block - 1) / block);
   for_blocks(threads, a.count, block, [&](std::size_t first, std::size_t last, std::size_t b) {
-    galerkin_block(matrix, a, begin, member, first, last, blocks[b], coarse.row_begin, coarse.diagonal);
+    galerkin_block(matrix, a, first, last, blocks[b], coarse.row_begin, coarse.diagonal);
   });
   for (std::uint32_t g = 0; g < a.count; ++g) coarse.row_begin[g + 1] += coarse.row_begin[g];
   coarse.column.resize(coarse.row_begin[a.count]);
   coarse.value.resize(coarse.row_begin[a.count]);
   threads.run(blocks.size(), [&](std::size_t b) {
-    std::copy(blocks[b].column.begin(), blocks[b].column.end(),
-              coarse.column.begin() + static_cast<std::ptrdiff_t>(coarse.row_begin[b * block]));
-    std::copy(blocks[b].value.begin(), blocks[b].value.end(),
-              coarse.value.begin() + static_cast<std::ptrdiff_t>(coarse.row_begin[b * block]));
+    const auto at = static_cast<std::ptrdiff_t>(coarse.row_begin[b * block]);
+    std::copy(blocks[b].column.begin(), blocks[b].column.end(), coarse.column.begin() + at);
+    std::copy(blocks[b].value.begin(), blocks[b].value.end(), coarse.value.begin() + at);
     blocks[b] = {};
   });
   coarse.corner = matrix.corner;
   for (const std::vector<float>& border : matrix.border) {
-    std::vector<double> sum(a.count, 0);
-    for (std::uint32_t i = 0; i < border.size(); ++i)
-      if (a.aggregate[i] != none) sum[a.aggregate[i]] += static_cast<double>(border[i]) * a.sign[i];
-    coarse.border.emplace_back(sum.begin(), sum.end());
+    std::vector<float> sums(a.count);
+    for_each_index(threads, a.count, [&](std::size_t g) {
+      double sum = 0;
+      for (std::uint32_t k = a.begin[g]; k < a.begin[g + 1]; ++k)
+        sum += static_cast<double>(border[a.member[k]]) * a.sign[a.member[k]];
+      sums[g] = static_cast<float>(sum);
+    });
+    coarse.border.push_back(std::move(sums));
   }
   return coarse;
 }
 
-Aggregation aggregate_pairs_twice(const BorderedMatrix& matrix, const Threads& threads) {
-  Aggregation first = match_pairs(matrix);
-  const Aggregation second = match_pairs(galerkin(matrix, first, threads));
+Coarsening coarsen_by_pairs_twice(const BorderedMatrix& matrix, const Threads& threads) {
+  Coarsening result;
+  Aggregation& a = result.aggregation;
+  a = match_pairs(matrix, threads);
+  const BorderedMatrix pairs = galerkin(matrix, a, threads);
+  Aggregation second = match_pairs(pairs, threads);
   // A pair without neighbours after the first round still is one unknown of the coarse level.
-  std::vector<std::uint32_t> number = second.aggregate;
-  std::uint32_t count = second.count;
-  for (std::uint32_t& g : number)
-    if (g == none) g = count++;
-  for (std::uint32_t i = 0; i < first.aggregate.size(); ++i) {
-    if (first.aggregate[i] == none) continue;
-    const std::uint32_t g = first.aggregate[i];
-    first.sign[i] = static_cast<std::int8_t>(first.sign[i] * second.sign[g]);
-    first.aggregate[i] = number[g];
-  }
-  first.count = count;
-  return first;
+  for (std::uint32_t& g : second.aggregate)
+    if (g == none) g = second.count++;
+  list_members(second);
+  result.matrix = galerkin(pairs, second, threads);
+  for_each_index(threads, a.aggregate.size(), [&](std::size_t i) {
+    if (a.aggregate[i] == none) return;
+    const std::uint32_t g = a.aggregate[i];
+    a.sign[i] = static_cast<std::int8_t>(a.sign[i] * second.sign[g]);
+    a.aggregate[i] = second.aggregate[g];
+  });
+  a.count = second.count;
+  list_members(a);
+  return result;
 }
 
 } // namespace eigencrust

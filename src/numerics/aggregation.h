@@ -13,11 +13,22 @@ namespace eigencrust {
 struct Aggregation {
   std::uint32_t count = 0;
   std::vector<std::uint32_t> aggregate; ///< 0xffffffff: no interior neighbour, ends here
-  std::vector<std::int8_t> sign;
+  std::vector<std::int8_t> sign;        ///< +1 or -1: moves with or against its aggregate
+  /// Members of aggregate g, increasing: member[begin[g]] … member[begin[g + 1] - 1].
+  std::vector<std::uint32_t> begin, member;
+};
+
+/// Pᵀ M P and its P.
+struct Coarsening {
+  Aggregation aggregation;
+  BorderedMatrix matrix;
 };
 
 /// Two rounds of pairwise matching along the strongest entries.
-Aggregation aggregate_pairs_twice(const BorderedMatrix& matrix, const Threads& threads);
+Coarsening coarsen_by_pairs_twice(const BorderedMatrix& matrix, const Threads& threads);
+
+/// One round: pairs along the strongest entries, and single nodes that join a neighbour's pair.
+Aggregation match_pairs(const BorderedMatrix& matrix, const Threads& threads);
 
 /// Pᵀ M P with the border kept. Entries that cancel to nothing are dropped.
 BorderedMatrix galerkin(const BorderedMatrix& matrix, const Aggregation& aggregation, const Threads& threads);

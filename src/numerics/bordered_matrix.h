@@ -29,6 +29,7 @@ struct BorderedMatrix {
 
 /// Vectors have interior_size() entries, then the border's.
 using Vector = std::vector<double>;
+using FloatVector = std::vector<float>;
 
 /// y = M x
 void multiply(const BorderedMatrix& matrix, const Vector& x, Vector& y, const Threads& threads);

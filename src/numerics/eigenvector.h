@@ -17,7 +17,7 @@ struct IterationControl {
   /// Stop when at most `stable_share` of all signs change in two steps running; otherwise only the
   /// residual stops the iteration.
   bool stop_on_stable_signs = true;
-  double stable_share = 1e-5;
+  double stable_share = 1e-4;
   /// Signs that stand still before the far side was heard of are not settled: the residual must be below
   /// this as well.
   double stable_residual = 1e-2;
@@ -33,6 +33,9 @@ struct IterationResult {
   double eigenvalue = 0, residual = 0;
   std::uint32_t steps = 0;
   std::vector<std::uint32_t> sign_changes;
+  /// Of an eigenvector that was stopped at stable signs: 1 for interior nodes whose value is not larger than
+  /// what may still change. Empty otherwise.
+  std::vector<std::uint8_t> unsettled;
   SolverStatus status = SolverStatus::not_converged;
 };
 

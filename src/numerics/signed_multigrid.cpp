@@ -13,44 +13,64 @@ namespace {
 // Rows are relaxed by Gauss-Seidel inside fixed blocks and by Jacobi between them, so that the result
 // does not depend on the number of threads.
 constexpr std::size_t relaxation_block = 8192;
+// Piecewise constants under-correct smooth errors; below 2 the cycle stays positive definite
+// (docs/decisions/0019).
+constexpr float over_correction = 1.5f;
 
-template <bool forward>
-void relax_interior(const BorderedMatrix& m, const Vector& b, Vector& x, Vector& old, const Threads& threads) {
-  const std::size_t n = m.interior_size();
-  const bool blocked = n > relaxation_block;
-  if (blocked) {
-    old.resize(n);
-    for_each_index(threads, n, [&](std::size_t i) { old[i] = x[i]; });
-  }
-  for_blocks(threads, n, relaxation_block, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::size_t i = forward ? k : end - 1 - (k - begin);
-      if (!(m.diagonal[i] > 0)) continue;
-      double sum = b[i];
-      for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1]; ++e) {
-        const std::size_t j = m.column[e];
-        const double xj = (j >= begin && j < end) || !blocked ? x[j] : old[j];
-        sum -= static_cast<double>(m.value[e]) * xj;
-      }
-      for (std::uint32_t s = 0; s < m.border_size(); ++s) sum -= static_cast<double>(m.border[s][i]) * x[n + s];
-      x[i] = sum / m.diagonal[i];
+float border_part(const BorderedMatrix& m, const FloatVector& x, std::size_t i) {
+  float sum = 0;
+  for (std::uint32_t s = 0; s < m.border_size(); ++s) sum += m.border[s][i] * x[m.interior_size() + s];
+  return sum;
+}
+
+/// The first sweep, from x = 0: only what was set earlier in the same block counts. The rows' columns increase.
+void relax_from_zero(const SignedMultigrid::Level& level, const FloatVector& b, FloatVector& x,
+                     const Threads& threads) {
+  const BorderedMatrix& m = level.matrix;
+  for_blocks(threads, m.interior_size(), relaxation_block, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      float sum = b[i];
+      for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1] && m.column[e] < i; ++e)
+        if (m.column[e] >= begin) sum -= m.value[e] * x[m.column[e]];
+      x[i] = sum * level.inverse[i];
     }
   });
 }
 
-void relax_border(const BorderedMatrix& m, const Vector& b, Vector& x, const Threads& threads) {
+/// The last sweep, backwards. \param old a copy of x
+void relax_backward(const SignedMultigrid::Level& level, const FloatVector& b, const FloatVector& old, FloatVector& x,
+                    const Threads& threads) {
+  const BorderedMatrix& m = level.matrix;
+  for_blocks(threads, m.interior_size(), relaxation_block, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = end; i-- > begin;) {
+      float sum = b[i] - border_part(m, x, i);
+      for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1]; ++e) {
+        const std::size_t j = m.column[e];
+        sum -= m.value[e] * (j - begin < end - begin ? x[j] : old[j]);
+      }
+      x[i] = sum * level.inverse[i];
+    }
+  });
+}
+
+double border_row_product(const BorderedMatrix& m, const FloatVector& x, std::uint32_t s, const Threads& threads) {
   const std::size_t n = m.interior_size();
-  for (std::uint32_t s = 0; s < m.border_size(); ++s) {
-    if (!(m.corner[s][s] > 0)) continue;
-    double sum = b[n + s] - sum_blocks<double>(threads, n, [&](std::size_t begin, std::size_t end) {
-                   double part = 0;
-                   for (std::size_t i = begin; i < end; ++i) part += static_cast<double>(m.border[s][i]) * x[i];
-                   return part;
-                 });
-    for (std::uint32_t t = 0; t < m.border_size(); ++t)
-      if (t != s) sum -= m.corner[s][t] * x[n + t];
-    x[n + s] = sum / m.corner[s][s];
-  }
+  double sum = sum_blocks<double>(threads, n, [&](std::size_t begin, std::size_t end) {
+    double part = 0;
+    for (std::size_t i = begin; i < end; ++i) part += static_cast<double>(m.border[s][i]) * static_cast<double>(x[i]);
+    return part;
+  });
+  for (std::uint32_t t = 0; t < m.border_size(); ++t)
+    if (t != s) sum += m.corner[s][t] * static_cast<double>(x[n + t]);
+  return sum;
+}
+
+void relax_border(const BorderedMatrix& m, const FloatVector& b, FloatVector& x, const Threads& threads) {
+  const std::size_t n = m.interior_size();
+  for (std::uint32_t s = 0; s < m.border_size(); ++s)
+    if (m.corner[s][s] > 0)
+      x[n + s] =
+          static_cast<float>((static_cast<double>(b[n + s]) - border_row_product(m, x, s, threads)) / m.corner[s][s]);
 }
 
 } // namespace
@@ -69,18 +89,24 @@ SignedMultigrid::SignedMultigrid(BorderedMatrix matrix, Vector mass, const Threa
   levels_.push_back({std::move(matrix), std::move(mass), {}, {}});
   while (levels_.back().matrix.interior_size() > coarsest_size) {
     Level& fine = levels_.back();
-    Aggregation a = aggregate_pairs_twice(fine.matrix, threads);
+    Coarsening next = coarsen_by_pairs_twice(fine.matrix, threads);
+    fine.aggregation = std::move(next.aggregation);
+    const Aggregation& a = fine.aggregation;
     Level coarse;
-    coarse.matrix = galerkin(fine.matrix, a, threads);
+    coarse.matrix = std::move(next.matrix);
     const std::uint32_t n = fine.matrix.interior_size(), k = fine.matrix.border_size();
     if (!fine.mass.empty()) {
       coarse.mass.assign(a.count + k, 0);
-      for (std::uint32_t i = 0; i < n; ++i)
-        if (a.aggregate[i] != none) coarse.mass[a.aggregate[i]] += fine.mass[i];
+      for_each_index(threads, a.count, [&](std::size_t g) {
+        for (std::uint32_t m = a.begin[g]; m < a.begin[g + 1]; ++m) coarse.mass[g] += fine.mass[a.member[m]];
+      });
       for (std::uint32_t s = 0; s < k; ++s) coarse.mass[a.count + s] = fine.mass[n + s];
     }
-    fine.aggregate = std::move(a.aggregate);
-    fine.sign = std::move(a.sign);
+    fine.inverse.resize(n);
+    for_each_index(threads, n, [&](std::size_t i) {
+      const double d = fine.matrix.diagonal[i];
+      fine.inverse[i] = d > 0 ? static_cast<float>(1 / d) : 0.0f;
+    });
     levels_.push_back(std::move(coarse));
   }
   const BorderedMatrix& last = levels_.back().matrix;
@@ -94,50 +120,92 @@ SignedMultigrid::SignedMultigrid(BorderedMatrix matrix, Vector mass, const Threa
 
 void SignedMultigrid::prolongate(std::size_t level, const Vector& coarse, Vector& x, const Threads& threads) const {
   const Level& fine = levels_[level];
+  const Aggregation& a = fine.aggregation;
   const std::uint32_t n = fine.matrix.interior_size();
-  const std::uint32_t n_coarse = levels_[level + 1].matrix.interior_size();
   x.resize(fine.matrix.size());
-  for_each_index(threads, n, [&](std::size_t i) {
-    x[i] = fine.aggregate[i] == none ? 0.0 : fine.sign[i] * coarse[fine.aggregate[i]];
-  });
-  for (std::uint32_t s = 0; s < fine.matrix.border_size(); ++s) x[n + s] = coarse[n_coarse + s];
+  for_each_index(threads, n,
+                 [&](std::size_t i) { x[i] = a.aggregate[i] == none ? 0.0 : a.sign[i] * coarse[a.aggregate[i]]; });
+  for (std::uint32_t s = 0; s < fine.matrix.border_size(); ++s) x[n + s] = coarse[a.count + s];
 }
 
-void SignedMultigrid::restrict_to(std::size_t level, const Vector& fine, Vector& coarse, const Threads&) const {
-  const Level& from = levels_[level];
-  const std::uint32_t n = from.matrix.interior_size();
-  const BorderedMatrix& to = levels_[level + 1].matrix;
-  coarse.assign(to.size(), 0);
-  for (std::uint32_t i = 0; i < n; ++i)
-    if (from.aggregate[i] != none) coarse[from.aggregate[i]] += from.sign[i] * fine[i];
-  for (std::uint32_t s = 0; s < to.border_size(); ++s) coarse[to.interior_size() + s] = fine[n + s];
-}
-
-void SignedMultigrid::cycle(std::size_t level, const Vector& b, Vector& x, const Threads& threads) const {
-  const BorderedMatrix& m = levels_[level].matrix;
-  x.assign(m.size(), 0);
-  if (level + 1 == levels_.size()) {
-    const auto& kept = coarsest_->kept;
-    Eigen::VectorXd rhs(static_cast<Eigen::Index>(kept.size()));
-    for (std::size_t i = 0; i < kept.size(); ++i) rhs(static_cast<Eigen::Index>(i)) = b[kept[i]];
-    const Eigen::VectorXd solution = coarsest_->factors.solve(rhs);
-    for (std::size_t i = 0; i < kept.size(); ++i) x[kept[i]] = solution(static_cast<Eigen::Index>(i));
-    return;
+SignedMultigrid::Workspace SignedMultigrid::workspace() const {
+  Workspace result;
+  result.level.resize(levels_.size());
+  for (std::size_t l = 0; l < levels_.size(); ++l) {
+    const std::size_t size = levels_[l].matrix.size();
+    if (l > 0) result.level[l] = {FloatVector(size), FloatVector(size), {}};
+    if (l + 1 < levels_.size()) result.level[l].old.resize(size);
   }
-  Vector old, r, coarse_b, coarse_x, correction;
-  relax_interior<true>(m, b, x, old, threads);
-  relax_border(m, b, x, threads);
+  return result;
+}
+
+/// Pᵀ (b - M x). The residual is written down first: aggregates are scattered, and rows want to be streamed.
+void SignedMultigrid::restrict_residual(std::size_t level, const FloatVector& b, const FloatVector& x, FloatVector& r,
+                                        FloatVector& coarse, const Threads& threads) const {
+  const BorderedMatrix& m = levels_[level].matrix;
+  const Aggregation& a = levels_[level].aggregation;
+  for_each_index(threads, m.interior_size(), [&](std::size_t i) {
+    float sum = b[i] - static_cast<float>(m.diagonal[i]) * x[i] - border_part(m, x, i);
+    for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1]; ++e) sum -= m.value[e] * x[m.column[e]];
+    r[i] = sum;
+  });
+  for_each_index(threads, a.count, [&](std::size_t g) {
+    float sum = 0;
+    for (std::uint32_t k = a.begin[g]; k < a.begin[g + 1]; ++k) {
+      const std::uint32_t i = a.member[k];
+      sum += a.sign[i] > 0 ? r[i] : -r[i];
+    }
+    coarse[g] = sum;
+  });
+  const std::size_t n = m.interior_size();
+  for (std::uint32_t s = 0; s < m.border_size(); ++s)
+    coarse[a.count + s] = static_cast<float>(static_cast<double>(b[n + s]) - border_row_product(m, x, s, threads) -
+                                             m.corner[s][s] * static_cast<double>(x[n + s]));
+}
+
+void SignedMultigrid::add_correction(std::size_t level, const FloatVector& coarse, FloatVector& x, FloatVector* copy,
+                                     const Threads& threads) const {
+  const Aggregation& a = levels_[level].aggregation;
+  const std::size_t n = levels_[level].matrix.interior_size();
+  for_each_index(threads, n, [&](std::size_t i) {
+    if (a.aggregate[i] != none) {
+      const float c = over_correction * coarse[a.aggregate[i]];
+      x[i] += a.sign[i] > 0 ? c : -c;
+    }
+    if (copy) (*copy)[i] = x[i];
+  });
+  for (std::uint32_t s = 0; s < levels_[level].matrix.border_size(); ++s)
+    x[n + s] += over_correction * coarse[a.count + s];
+}
+
+void SignedMultigrid::solve_coarsest(const FloatVector& b, FloatVector& x) const {
+  const auto& kept = coarsest_->kept;
+  std::fill(x.begin(), x.end(), 0.0f);
+  Eigen::VectorXd rhs(static_cast<Eigen::Index>(kept.size()));
+  for (std::size_t i = 0; i < kept.size(); ++i) rhs(static_cast<Eigen::Index>(i)) = static_cast<double>(b[kept[i]]);
+  const Eigen::VectorXd solution = coarsest_->factors.solve(rhs);
+  for (std::size_t i = 0; i < kept.size(); ++i) x[kept[i]] = static_cast<float>(solution(static_cast<Eigen::Index>(i)));
+}
+
+void SignedMultigrid::cycle(std::size_t level, const FloatVector& b, FloatVector& x, Workspace& workspace,
+                            const Threads& threads) const {
+  const Level& here = levels_[level];
+  x.resize(here.matrix.size());
+  if (level + 1 == levels_.size()) return solve_coarsest(b, x);
+  FloatVector &coarse_b = workspace.level[level + 1].b, &coarse_x = workspace.level[level + 1].x;
+  FloatVector& old = workspace.level[level].old;
+  for (std::size_t z = here.matrix.interior_size(); z < x.size(); ++z) x[z] = 0;
+  relax_from_zero(here, b, x, threads);
+  relax_border(here.matrix, b, x, threads);
   // Twice on small levels (W-cycle): piecewise constants under-correct, and the small levels cost little.
   const int visits = level == 0 ? 1 : 2;
   for (int visit = 0; visit < visits; ++visit) {
-    residual(m, b, x, r, threads);
-    restrict_to(level, r, coarse_b, threads);
-    cycle(level + 1, coarse_b, coarse_x, threads);
-    prolongate(level, coarse_x, correction, threads);
-    add_scaled(1.0, correction, x, threads);
+    restrict_residual(level, b, x, old, coarse_b, threads);
+    cycle(level + 1, coarse_b, coarse_x, workspace, threads);
+    add_correction(level, coarse_x, x, visit + 1 == visits ? &old : nullptr, threads);
   }
-  relax_border(m, b, x, threads);
-  relax_interior<false>(m, b, x, old, threads);
+  relax_border(here.matrix, b, x, threads);
+  relax_backward(here, b, old, x, threads);
 }
 
 } // namespace eigencrust

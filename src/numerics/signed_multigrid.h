@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "numerics/aggregation.h"
 #include "numerics/bordered_matrix.h"
 
 namespace eigencrust {
@@ -22,9 +23,16 @@ class SignedMultigrid {
  public:
   struct Level {
     BorderedMatrix matrix;
-    Vector mass;                          ///< diagonal of Pᵀ D P, interior then border; empty if D was
-    std::vector<std::uint32_t> aggregate; ///< on the next level; none for nodes that end here
-    std::vector<std::int8_t> sign;        ///< +1 or -1: moves with or against its aggregate
+    Vector mass;             ///< diagonal of Pᵀ D P, interior then border; empty if D was
+    Aggregation aggregation; ///< of the interior on the next level; empty on the last
+    FloatVector inverse;     ///< 1 / diagonal of A; 0 where that is not positive; empty on the last
+  };
+  /// The vectors of one cycle, reused from cycle to cycle.
+  struct Workspace {
+    struct Vectors {
+      FloatVector b, x, old;
+    };
+    std::vector<Vectors> level;
   };
   static constexpr std::uint32_t none = 0xffffffffu;
   static constexpr std::uint32_t coarsest_size = 400; ///< solved densely
@@ -38,14 +46,21 @@ class SignedMultigrid {
   [[nodiscard]] const std::vector<Level>& levels() const { return levels_; }
   [[nodiscard]] const Level& finest() const { return levels_.front(); }
 
-  /// One symmetric cycle from zero: x ≈ M⁻¹ b on `level`. Linear and positive definite in b.
-  void cycle(std::size_t level, const Vector& b, Vector& x, const Threads& threads) const;
+  [[nodiscard]] Workspace workspace() const;
+  /// One symmetric cycle from zero: x ≈ M⁻¹ b on `level`. Linear (to single precision) and positive definite
+  /// in b. Single precision: as a preconditioner it only has to point the right way, and it is bound by memory.
+  void cycle(std::size_t level, const FloatVector& b, FloatVector& x, Workspace& workspace,
+             const Threads& threads) const;
 
   /// x on `level` from the next coarser one (nodes that ended here get 0).
   void prolongate(std::size_t level, const Vector& coarse, Vector& x, const Threads& threads) const;
 
  private:
-  void restrict_to(std::size_t level, const Vector& fine, Vector& coarse, const Threads& threads) const;
+  void restrict_residual(std::size_t level, const FloatVector& b, const FloatVector& x, FloatVector& r,
+                         FloatVector& coarse, const Threads& threads) const;
+  void add_correction(std::size_t level, const FloatVector& coarse, FloatVector& x, FloatVector* copy,
+                      const Threads& threads) const;
+  void solve_coarsest(const FloatVector& b, FloatVector& x) const;
 
   std::vector<Level> levels_;
   struct Coarsest;

@@ -22,9 +22,8 @@ IterationControl control_of(const SolverOptions& options, const Checkpoint& chec
   return control;
 }
 
-IterationResult solve(const SignedGraph& graph, const SolverOptions& options, const Threads& threads,
+IterationResult solve(BorderedMatrix matrix, const SolverOptions& options, const Threads& threads,
                       const Checkpoint& checkpoint) {
-  BorderedMatrix matrix = signed_laplacian(graph, threads);
   Vector mass = full_diagonal(matrix);
   IterationControl control = control_of(options, checkpoint);
   // Lanczos on a problem smaller than its Krylov space, and the dense case, are the multigrid's coarsest level.
@@ -52,6 +51,25 @@ void scale_to_one(Vector& x) {
     for (double& v : x) v /= largest;
 }
 
+/// Makes all nodes of other components nodes without edges and without mass.
+void mask(BorderedMatrix& matrix, const std::vector<std::uint32_t>& of_node, std::uint32_t component) {
+  for (std::size_t i = 0; i < of_node.size(); ++i) {
+    if (of_node[i] == component) continue;
+    matrix.diagonal[i] = 0;
+    for (std::uint64_t e = matrix.row_begin[i]; e < matrix.row_begin[i + 1]; ++e) matrix.value[e] = 0;
+  }
+}
+
+/// Leaves the values of some of the n interior nodes, and the border's.
+void pick(const std::vector<std::uint32_t>& nodes, std::uint32_t n, IterationResult& result) {
+  if (result.x.empty()) return;
+  for (std::size_t k = 0; k < nodes.size(); ++k) result.x[k] = result.x[nodes[k]];
+  result.x.erase(result.x.begin() + static_cast<std::ptrdiff_t>(nodes.size()), result.x.begin() + n);
+  if (result.unsettled.empty()) return;
+  for (std::size_t k = 0; k < nodes.size(); ++k) result.unsettled[k] = result.unsettled[nodes[k]];
+  result.unsettled.resize(nodes.size());
+}
+
 /// Eigenvectors of all components; supernodes belong to component 0.
 Partition partition_components(const SignedGraph& graph, const Components& components, const SolverOptions& options,
                                const Threads& threads, const Checkpoint& checkpoint) {
@@ -63,18 +81,32 @@ Partition partition_components(const SignedGraph& graph, const Components& compo
   partition.free_components = components.count - 1;
   std::vector<std::vector<std::uint32_t>> members(components.count);
   for (std::uint32_t i = 0; i < n; ++i) members[components.of_node[i]].push_back(i);
+  const auto solve_component = [&](std::uint32_t c) {
+    const auto& nodes = members[c];
+    // Most of the graph is not worth a copy; the few other nodes are masked out.
+    if (c == 0 && nodes.size() > n / 2) {
+      BorderedMatrix matrix = signed_laplacian(graph, threads);
+      if (components.count > 1) mask(matrix, components.of_node, c);
+      IterationResult result = solve(std::move(matrix), options, threads, checkpoint);
+      if (components.count > 1) pick(nodes, n, result);
+      return result;
+    }
+    const Subgraph part = extract_component(graph, c, nodes);
+    return solve(signed_laplacian(part.graph, threads), options, threads, checkpoint);
+  };
   for (std::uint32_t c = 0; c < components.count; ++c) {
     if (c > 0 && members[c].size() == 1) { // no edge at all: any sign will do
       partition.value[members[c].front()] = 1;
       continue;
     }
     if (members[c].empty()) continue;
-    IterationResult result = components.count == 1
-                                 ? solve(graph, options, threads, checkpoint)
-                                 : solve(extract_component(graph, c, members[c]).graph, options, threads, checkpoint);
+    IterationResult result = solve_component(c);
     if (c == 0 || (c == 1 && members[0].empty())) take_figures(result, partition);
     if (result.x.empty()) continue; // not converged at all: no labels, and the status says so
     scale_to_one(result.x);
+    // What may still change has no sign: the second stage decides (docs/decisions/0019).
+    for (std::size_t k = 0; k < result.unsettled.size(); ++k)
+      if (result.unsettled[k]) result.x[k] = 0;
     for (std::size_t k = 0; k < members[c].size(); ++k)
       partition.value[members[c][k]] = static_cast<float>(result.x[k]);
     if (c == 0)
