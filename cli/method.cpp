@@ -69,6 +69,17 @@ void add_method_options(CLI::App& app, Request& r) {
       ->allow_extra_args(false);
   app.add_option("--inside-point", r.inside_points, "x,y,z of a point known to be inside; repeatable")
       ->allow_extra_args(false);
+  app.add_option("--crossing-depth", r.crossing_depth,
+                 "Where sensors are known: a line of sight crosses what it enters farther than this from its sample; "
+                 "auto or a length" +
+                     defaults("auto", "auto"));
+  app.add_option("--crossing-count", r.crossing_count,
+                 "Lines of sight that must cross a tetrahedron to make it outside" +
+                     defaults(std::to_string(robust.crossing_count), std::to_string(paper.crossing_count)));
+  app.add_option("--behind-count", r.behind_count,
+                 "Samples that must lie right in front of a tetrahedron that no line crosses to make it inside; 0: "
+                 "never" +
+                     defaults(std::to_string(robust.behind_count), std::to_string(paper.behind_count)));
   app.add_option("--facade", r.facade,
                  "One-sided scan, outside in front along +x -x +y -y +z or -z: the mesh stays open");
 }
@@ -118,6 +129,9 @@ Options effective_options(const Request& r) {
   if (!r.smoothing.empty()) o.smoothing = parse_smoothing(r.smoothing);
   for (const std::string& text : r.outside_points) o.outside_points.push_back(parse_point(text));
   for (const std::string& text : r.inside_points) o.inside_points.push_back(parse_point(text));
+  if (!r.crossing_depth.empty()) o.crossing_depth = parse_crossing_depth(r.crossing_depth);
+  if (r.crossing_count) o.crossing_count = *r.crossing_count;
+  if (r.behind_count) o.behind_count = *r.behind_count;
   if (!r.facade.empty()) o.facade = parse_axis(r.facade);
   o.threads = r.threads;
   check_options(o);

@@ -21,6 +21,8 @@ struct Request {
   std::optional<double> tolerance;
   std::optional<bool> local_noise, centring, close_handles;
   std::optional<double> min_agreement, pole_ties, recover_share;
+  std::string crossing_depth;
+  std::optional<std::uint32_t> crossing_count, behind_count;
   std::optional<std::uint32_t> max_steps;
   std::vector<std::string> outside_points, inside_points;
   unsigned threads = Options{}.threads;

@@ -21,13 +21,14 @@ struct StageShare {
   std::string_view name;
   double share;
 };
-constexpr std::array<StageShare, 22> shares{{{"samples", 4},
+constexpr std::array<StageShare, 23> shares{{{"samples", 4},
                                              {"neighbourhoods", 2},
                                              {"noise", 2},
                                              {"delaunay", 24},
                                              {"stars", 1},
                                              {"poles", 4},
                                              {"evidence", 1},
+                                             {"line_of_sight", 12},
                                              {"questionable", 1},
                                              {"pole_graph", 8},
                                              {"partition_poles", 15},

@@ -83,6 +83,7 @@ Options Options::of(Preset preset) {
     options.global_sign = GlobalSign::supernode;
     options.min_agreement = 0;
     options.weights = Weights::paper;
+    options.behind_count = 0;
     options.local_noise = false;
     options.centring = false;
     options.close_handles = false;
@@ -162,6 +163,13 @@ KeepComponents parse_components(const std::string& text) {
   return {KeepComponents::Kind::count, count};
 }
 
+std::optional<double> parse_crossing_depth(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  const auto value = number(text);
+  if (!value || *value < 0) reject("crossing depth", text, "auto or a length, 0 or more");
+  return value;
+}
+
 Vec3 parse_point(const std::string& text) {
   std::array<double, 3> value{};
   std::size_t begin = 0;
@@ -195,6 +203,9 @@ void check_options(const Options& options) {
           "use 0.1");
   require(options.recover_share >= 0 && options.recover_share <= 1, "the share of samples to recover is not in [0, 1]",
           "use 0.04");
+  require(!options.crossing_depth || (*options.crossing_depth >= 0 && std::isfinite(*options.crossing_depth)),
+          "the crossing depth is negative", "give a length, 0 or more");
+  require(options.crossing_count >= 1, "the crossing count is 0", "ask for at least one line");
   require(options.smooth <= 1000, "more than 1000 smoothing steps", "use fewer");
   require(options.threads <= 1024, "more than 1024 threads", "use fewer");
   for (const auto* points : {&options.outside_points, &options.inside_points})

@@ -69,6 +69,40 @@ void describe_noise(const std::vector<float>& grid_spacing, Run& run) {
   }
 }
 
+std::vector<float> crossing_depths(const std::vector<float>& grid_spacing, const Options& options, double spacing,
+                                   std::size_t samples) {
+  if (options.crossing_depth) return std::vector<float>(samples, static_cast<float>(*options.crossing_depth));
+  std::vector<float> depth(samples, static_cast<float>(2 * spacing));
+  constexpr float noise_in_grid_spacings = 3 / 1.2f; // 3 deviations; a grid spacing is 1.2 of them
+  for (std::size_t i = 0; i < grid_spacing.size(); ++i)
+    depth[i] = std::max(depth[i], noise_in_grid_spacings * grid_spacing[i]);
+  return depth;
+}
+
+void describe_sight(const SightCrossings& crossings, const SightLabels& sight, const Labels& named, Run& run,
+                    Report& report) {
+  std::uint64_t outside = 0, inside = 0;
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    if (named.raw()[i] != Label::unlabelled) continue;
+    outside += sight.labels.raw()[i] == Label::outside;
+    inside += sight.labels.raw()[i] == Label::inside;
+  }
+  report.sight_lines = crossings.begin.size() - 1;
+  run.count("lines", static_cast<double>(report.sight_lines));
+  run.count("disbelieved", static_cast<double>(sight.disbelieved));
+  run.count("outside", static_cast<double>(outside));
+  run.count("inside", static_cast<double>(inside));
+}
+
+void describe_contradictions(std::uint64_t contradicting, Run& run, Report& report) {
+  report.contradicting_rays = contradicting;
+  const double share = static_cast<double>(contradicting) / static_cast<double>(report.sight_lines);
+  constexpr double usual = 0.05;
+  if (share > usual)
+    run.warn(std::to_string(std::lround(100 * share)) +
+             " % of the lines of sight cross what was found to be inside: check the sensors' places, or ignore them");
+}
+
 void describe_labels(const FinalLabels& labels, Run& run) {
   if (labels.supernodes_agree)
     run.warn("the second eigenvector puts inside and outside on the same side; use --second-stage harmonic");

@@ -15,6 +15,13 @@ void check_cloud(const PointCloud& cloud);
 /// Also measures the spacing.
 void describe_input(const PointCloud& cloud, const Samples& samples, Run& run, Report& report, const Threads& threads);
 void describe_noise(const std::vector<float>& grid_spacing, Run& run);
+/// How far in front of each sample a tetrahedron must begin to count as crossed.
+std::vector<float> crossing_depths(const std::vector<float>& grid_spacing, const Options& options, double spacing,
+                                   std::size_t samples);
+/// What the lines of sight say beyond what was `named`.
+void describe_sight(const SightCrossings& crossings, const SightLabels& sight, const Labels& named, Run& run,
+                    Report& report);
+void describe_contradictions(std::uint64_t contradicting, Run& run, Report& report);
 void describe_labels(const FinalLabels& labels, Run& run);
 void describe_manifold(const ManifoldCounts& counts, const Labels& known, const Labels& labels, Run& run);
 void describe_partition(const std::string& name, const SignedGraph& graph, const Partition& partition, Run& run,

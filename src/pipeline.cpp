@@ -42,9 +42,22 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   run.count("poles", poles.tetrahedron.size());
 
   // §3.1: what is known beforehand, and the pole graph G
-  const Labels known = run.stage("evidence", [&] {
+  const Labels named = run.stage("evidence", [&] {
     return known_labels(t, options.outside_points, options.inside_points, options.facade, threads);
   });
+  Labels known = named;
+  SightCrossings crossings;
+  if (!cloud.sensor_of.empty()) {
+    const SightLabels sight = run.stage("line_of_sight", [&] {
+      const auto depth = crossing_depths(grid, options, report.spacing, t.sample_count);
+      const auto lines = sight_lines(cloud, t, depth, isolated);
+      crossings = sight_crossings(t, stars, lines, options.weights, named, threads);
+      return line_of_sight(t, stars, lines, crossings, {options.crossing_count, options.behind_count, options.weights},
+                           named, threads);
+    });
+    describe_sight(crossings, sight, named, run, report);
+    known = sight.labels;
+  }
   const auto questionable =
       run.stage("questionable", [&] { return questionable_tetrahedra(t, grid, threads); }); // §3.3
   const bool leave_out = options.questionable == Questionable::before;
@@ -86,13 +99,13 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   // §3.5, §3: manifold, surface
   if (options.manifold) {
     const auto counts = run.stage("manifold", [&] {
-      return make_manifold(t, stars, poles, known, options.manifold_rule, labels, run.checkpoint());
+      return make_manifold(t, stars, poles, named, options.manifold_rule, labels, run.checkpoint());
     });
-    describe_manifold(counts, known, labels.labels, run);
+    describe_manifold(counts, named, labels.labels, run);
   }
   if (options.manifold && options.close_handles) {
     const auto closed = run.stage("handles", [&] {
-      return close_handles(t, stars, poles, pole_labels.labels, known, grid, options.manifold_rule, labels,
+      return close_handles(t, stars, poles, pole_labels.labels, named, grid, options.manifold_rule, labels,
                            run.checkpoint());
     });
     run.count("closed", static_cast<double>(closed));
@@ -100,6 +113,8 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   const auto recovered = run.stage(
       "recover", [&] { return recover_samples(t, stars, known, isolated, options.recover_share, labels.labels); });
   run.count("samples", static_cast<double>(recovered));
+  if (report.sight_lines > 0)
+    describe_contradictions(contradicting_lines(crossings, labels.labels, threads), run, report);
   Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels); });
   run.product("surface", [&] { return snapshot_of_surface(t, surface); });
   run.stage("support", [&] { measure_support(t, labels, around, grid, surface, threads); });

@@ -68,6 +68,9 @@ Json json_of(const Options& o) {
           {"smoothing", to_string(o.smoothing)},
           {"outside_points", std::move(points_out)},
           {"inside_points", std::move(points_in)},
+          {"crossing_depth", o.crossing_depth ? Json(*o.crossing_depth) : Json("auto")},
+          {"crossing_count", o.crossing_count},
+          {"behind_count", o.behind_count},
           {"facade", o.facade ? Json(to_string(*o.facade)) : Json()},
           {"point_results", o.point_results},
           {"threads", o.threads}};
@@ -130,6 +133,8 @@ std::string to_json(const Report& report) {
                   {"grid_spacing", report.grid_spacing},
                   {"dropped_components", std::move(dropped)},
                   {"undecided_nodes", report.undecided_nodes},
+                  {"sight_lines", report.sight_lines},
+                  {"contradicting_rays", report.contradicting_rays},
                   {"seconds", report.seconds},
                   {"peak_memory_bytes", report.peak_memory_bytes},
                   {"warnings", report.warnings},

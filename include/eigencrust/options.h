@@ -123,6 +123,14 @@ struct Options {
   Smoothing smoothing = Smoothing::laplacian;
   /// Points in space known to be outside or inside (§3.1); input coordinates.
   std::vector<Vec3> outside_points, inside_points;
+  /// Where the cloud knows its sensors (§3.1): a tetrahedron is outside when at least `crossing_count` lines from
+  /// samples to their sensors enter it farther than `crossing_depth` from the sample; a length >= 0, none: the larger
+  /// of 2 spacings and 3 deviations of the noise at the sample. docs/decisions/0017.
+  std::optional<double> crossing_depth;
+  std::uint32_t crossing_count = 2; ///< >= 1
+  /// And inside when at least so many samples lie right in front of it, seen from their sensors, and no line crosses
+  /// it; 0 as in the paper: never.
+  std::uint32_t behind_count = 5;
   /// One-sided scan: outside is in front, along this direction (§3.1). The result is then open.
   std::optional<Axis> facade;
   /// Also say of every input row whether it belongs to the surface, and its normal: Result::inlier,
@@ -156,9 +164,10 @@ SecondStage parse_second_stage(const std::string& text);
 Questionable parse_questionable(const std::string& text);
 Smoothing parse_smoothing(const std::string& text);
 Axis parse_axis(const std::string& text);
-GridSpacing parse_grid_spacing(const std::string& text);  ///< auto, off, LENGTH or N%
-KeepComponents parse_components(const std::string& text); ///< supported, all, largest or N
-Vec3 parse_point(const std::string& text);                ///< x,y,z
+GridSpacing parse_grid_spacing(const std::string& text);             ///< auto, off, LENGTH or N%
+KeepComponents parse_components(const std::string& text);            ///< supported, all, largest or N
+std::optional<double> parse_crossing_depth(const std::string& text); ///< auto or LENGTH
+Vec3 parse_point(const std::string& text);                           ///< x,y,z
 
 /// \throws Error{usage} naming the first option out of range.
 void check_options(const Options& options);

@@ -49,6 +49,8 @@ struct Report {
   double grid_spacing = 0; ///< the ℓ that was used; 0: off
   std::vector<DroppedComponent> dropped_components;
   std::uint64_t undecided_nodes = 0;
+  std::uint64_t sight_lines = 0;        ///< from samples to their sensors; 0: no sensor is known
+  std::uint64_t contradicting_rays = 0; ///< those that cross what was found to be inside
   double seconds = 0;
   std::uint64_t peak_memory_bytes = 0;
   std::vector<std::string> warnings;

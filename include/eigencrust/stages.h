@@ -68,6 +68,55 @@ Poles find_poles(const Tetrahedralization& tetrahedralization, const VertexStars
 Labels known_labels(const Tetrahedralization& tetrahedralization, std::span<const Vec3> outside_points,
                     std::span<const Vec3> inside_points, std::optional<Axis> facade, const Threads& threads);
 
+/// What the scanner looked along when it saw a sample.
+struct SightLine {
+  SampleIndex sample;
+  float depth = 0; ///< what begins nearer to the sample, or has a sample nearer to the line, is not crossed; length
+  Vec3 target;     ///< the scanner, or a place beyond all samples in its direction; relative to the origin
+};
+/// One line for each place from which a sample was seen, ordered by sample, then place; duplicates count once.
+/// \param depth a length per sample
+/// \param left_out samples where it is > 0 have none (may be empty)
+std::vector<SightLine> sight_lines(const PointCloud& cloud, const Tetrahedralization& tetrahedralization,
+                                   std::span<const float> depth, std::span<const float> left_out);
+
+/// The tetrahedra that each line crosses, in their order along it (compressed rows).
+struct SightCrossings {
+  std::vector<std::uint64_t> begin; ///< number of lines + 1
+  std::vector<TetrahedronIndex> tetrahedra;
+
+  [[nodiscard]] std::span<const TetrahedronIndex> operator[](std::size_t line) const {
+    return {tetrahedra.data() + begin[line], tetrahedra.data() + begin[line + 1]};
+  }
+};
+/// §3.1: a line crosses a tetrahedron when it enters it farther than its depth from its sample, and the middle of
+/// its way through is farther than that from the vertices (not in the paper; with Weights::paper vertices do not
+/// matter). Those known to be outside are left out.
+SightCrossings sight_crossings(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
+                               std::span<const SightLine> lines, Weights weights, const Labels& known,
+                               const Threads& threads);
+
+/// What makes a tetrahedron outside or inside, as in Options.
+struct SightRule {
+  std::uint32_t crossing_count = 2; ///< lines
+  std::uint32_t behind_count = 0;   ///< samples; 0: none makes it inside
+  Weights weights = Weights::evidence;
+};
+/// §3.1: `known`, and outside for the tetrahedra without a label that enough lines cross, more than there are
+/// samples right in front of them. Lines that cross what more samples lie in front of than lines cross are not
+/// believed: they belong to outliers behind the surface or to scans that disagree. Inside are tetrahedra that no
+/// line crosses with enough samples right in front (neither is in the paper; docs/decisions/0017). With
+/// Weights::paper all lines count and nothing else.
+struct SightLabels {
+  Labels labels;
+  std::uint64_t disbelieved = 0; ///< lines
+};
+SightLabels line_of_sight(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
+                          std::span<const SightLine> lines, const SightCrossings& crossings, const SightRule& rule,
+                          const Labels& known, const Threads& threads);
+/// How many lines cross a tetrahedron that `labels` call inside.
+std::uint64_t contradicting_lines(const SightCrossings& crossings, const Labels& labels, const Threads& threads);
+
 /// §3.3: tetrahedra whose longest edge is < 4 × the mean grid spacing at their samples, none with a cube
 /// corner. \param grid_spacing a length per sample; empty: none is questionable
 std::vector<std::uint8_t> questionable_tetrahedra(const Tetrahedralization& tetrahedralization,

@@ -19,6 +19,14 @@ bool collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
   return CGAL::collinear(to_cgal(a), to_cgal(b), to_cgal(c));
 }
 
+int normal_sign(const Vec3& a, const Vec3& b, const Vec3& c) {
+  using Point = Kernel::Point_2;
+  int sign = static_cast<int>(CGAL::orientation(Point(a.y, a.z), Point(b.y, b.z), Point(c.y, c.z)));
+  if (sign == 0) sign = static_cast<int>(CGAL::orientation(Point(a.z, a.x), Point(b.z, b.x), Point(c.z, c.x)));
+  if (sign == 0) sign = static_cast<int>(CGAL::orientation(Point(a.x, a.y), Point(b.x, b.y), Point(c.x, c.y)));
+  return sign;
+}
+
 int affine_dimension(std::span<const Vec3> points) {
   if (points.empty()) return -1;
   const Vec3& a = points.front();

@@ -11,6 +11,8 @@ namespace eigencrust {
 /// Sign of dot(cross(b-a, c-a), d-a): +1 when d sees the triangle abc counter-clockwise, 0 when coplanar.
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
+/// Sign of the first component of cross(b-a, c-a), x before y before z, that is not 0; 0 when collinear.
+int normal_sign(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Dimension of the smallest flat that holds all points: -1 (no point) to 3.
 int affine_dimension(std::span<const Vec3> points);

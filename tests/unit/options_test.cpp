@@ -100,6 +100,14 @@ TEST(Options, Points) {
     EXPECT_THAT(refusal([&] { parse_point(wrong); }), testing::HasSubstr("x,y,z")) << wrong;
 }
 
+TEST(Options, CrossingDepth) {
+  EXPECT_EQ(parse_crossing_depth("auto"), std::nullopt);
+  EXPECT_EQ(parse_crossing_depth("0"), 0.0);
+  EXPECT_EQ(parse_crossing_depth("2.5e-3"), 2.5e-3);
+  for (const char* wrong : {"", "-1", "nan", "inf", "1mm", "1%", "off", "AUTO"})
+    EXPECT_THAT(refusal([&] { parse_crossing_depth(wrong); }), testing::HasSubstr("auto")) << wrong;
+}
+
 TEST(Options, DefaultsAndPresetsAreInRange) {
   check_options({});
   check_options(Options::of(Preset::robust));
@@ -116,6 +124,8 @@ TEST(Options, ThePapersPresetIsThePaper) {
   EXPECT_EQ(paper.min_agreement, 0);
   EXPECT_EQ(paper.pole_ties, 0);
   EXPECT_EQ(paper.recover_share, 0);
+  EXPECT_EQ(paper.crossing_count, 2u); // "more than once"
+  EXPECT_EQ(paper.behind_count, 0u);
   EXPECT_TRUE(paper.manifold);
   EXPECT_EQ(paper.manifold_rule, ManifoldRule::paper);
   EXPECT_EQ(paper.components.kind, KeepComponents::Kind::all);
@@ -156,6 +166,10 @@ TEST(Options, WhatIsOutOfRangeIsRefused) {
       [](Options& o) { o.recover_share = -0.1; },
       [](Options& o) { o.recover_share = 1.1; },
       [](Options& o) { o.recover_share = nan; },
+      [](Options& o) { o.crossing_depth = -1; },
+      [](Options& o) { o.crossing_depth = nan; },
+      [](Options& o) { o.crossing_depth = infinity; },
+      [](Options& o) { o.crossing_count = 0; },
       [](Options& o) { o.smooth = 1001; },
       [](Options& o) { o.threads = 1025; },
       [](Options& o) {

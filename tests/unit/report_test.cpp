@@ -49,9 +49,10 @@ TEST(Report, HasTheSchemaOfTheDocumentation) {
   const json j = json::parse(to_json(sample_report()));
   EXPECT_EQ(j["schema"], 1);
   EXPECT_EQ(j["version"], version());
-  EXPECT_THAT(keys(j), IsSupersetOf({"schema", "version", "command", "input", "options", "stages", "partitions", "mesh",
-                                     "grid_spacing", "dropped_components", "undecided_nodes", "seconds",
-                                     "peak_memory_bytes", "warnings", "broken_guarantees"}));
+  EXPECT_THAT(keys(j),
+              IsSupersetOf({"schema", "version", "command", "input", "options", "stages", "partitions", "mesh",
+                            "grid_spacing", "dropped_components", "undecided_nodes", "sight_lines",
+                            "contradicting_rays", "seconds", "peak_memory_bytes", "warnings", "broken_guarantees"}));
   EXPECT_THAT(keys(j["input"]), IsSupersetOf({"files", "points", "duplicates", "nonfinite", "spacing", "bounds"}));
   EXPECT_THAT(keys(j["input"]["files"][0]), IsSupersetOf({"path", "sha256", "points"}));
   EXPECT_THAT(keys(j["stages"][0]), IsSupersetOf({"name", "seconds", "peak_memory_bytes", "tetrahedra"}));
@@ -86,7 +87,7 @@ TEST(Report, HoldsEveryEffectiveOption) {
                            "second_stage", "grid_spacing", "questionable", "global_sign", "min_agreement", "pole_ties",
                            "local_noise", "centring", "close_handles", "weights", "recover_share", "manifold",
                            "manifold_rule", "components", "smooth", "smoothing", "outside_points", "inside_points",
-                           "facade", "threads", "point_results"));
+                           "facade", "threads", "point_results", "crossing_depth", "crossing_count", "behind_count"));
   EXPECT_EQ(o["facade"], "-y");
   EXPECT_EQ(o["inside_points"], json::array({json({1.0, 2.0, 3.0})}));
   EXPECT_TRUE(json::parse(to_json(Report{}))["options"]["facade"].is_null());

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// §3.1: what the scanner looked through is outside.
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <memory>
+#include <tuple>
+
+#include <eigencrust/stages.h>
+
+#include "geometry/segment_walk.h"
+#include "parallel/threads.h"
+#include "sample_rows.h"
+
+namespace eigencrust {
+namespace {
+
+constexpr std::size_t lines_per_block = 512;
+// How far behind a sample there is matter, in crossing depths: farther, and thin walls seen from the outer side
+// would close what lies behind them (docs/decisions/0017).
+constexpr double matter = 3;
+// A single sample in front of a tetrahedron may be an outlier.
+constexpr std::uint32_t least_doubt = 2;
+
+/// Lines per tetrahedron. Whole numbers that only grow: the sums do not depend on the order of the lines.
+class Tally {
+ public:
+  explicit Tally(std::size_t n) : counts_(std::make_unique<std::atomic<std::uint32_t>[]>(n)) {}
+  void add(TetrahedronIndex i) { counts_[i.value].fetch_add(1, std::memory_order_relaxed); }
+  std::uint32_t operator[](TetrahedronIndex i) const { return counts_[i.value].load(std::memory_order_relaxed); }
+
+ private:
+  std::unique_ptr<std::atomic<std::uint32_t>[]> counts_;
+};
+
+/// Places on a line.
+class Ray {
+ public:
+  Ray(const Tetrahedralization& t, const SightLine& line)
+      : t_(t), start_(t.positions[line.sample]), depth_(static_cast<double>(line.depth)) {
+    const Vec3 way = line.target - start_;
+    direction_ = (1 / norm(way)) * way;
+  }
+  [[nodiscard]] Vec3 at(double depth) const { return start_ + depth * direction_; }
+  /// Is the middle of the way through the tetrahedron away from its vertices? Lines at a grazing angle dip into what
+  /// other scans put a little higher; there they are close to samples.
+  [[nodiscard]] bool is_clear(const SegmentWalk& walk) const {
+    const Vec3 middle = at(0.5 * (walk.depth() + walk.exit_depth()));
+    for (const SampleIndex s : t_.tetrahedra[walk.tetrahedron()])
+      if (squared_norm(t_.positions[s] - middle) <= depth_ * depth_) return false;
+    return true;
+  }
+
+ private:
+  const Tetrahedralization& t_;
+  Vec3 start_, direction_;
+  double depth_;
+};
+
+/// What lies behind the sample, seen from the scanner, from one depth on.
+void count_behind(const Tetrahedralization& t, const VertexStars& stars, const SightLine& line, Tally& behind) {
+  const double depth = static_cast<double>(line.depth);
+  SegmentWalk walk(t, stars, line.sample, Ray(t, line).at(-matter * depth));
+  while (walk.next())
+    if (walk.exit_depth() > depth) behind.add(walk.tetrahedron());
+}
+
+/// Where the line from a sample ends: the scanner, or a place outside the samples' box when that comes first. Beyond
+/// it there are only tetrahedra at the cube.
+Vec3 target_of(const Sensor& sensor, const Vec3& origin, const Box3& box, const Vec3& sample) {
+  const Vec3 way = sensor.at_infinity ? sensor.place : (sensor.place - origin) - sample;
+  const double size = std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)});
+  if (!(size > 0)) return sample;
+  const Vec3 scaled = (1 / size) * way; // coordinates may be so large that their squares overflow
+  double leave = std::numeric_limits<double>::infinity();
+  for (const auto& [at, step, low, high] :
+       {std::tuple{sample.x, scaled.x, box.min.x, box.max.x}, std::tuple{sample.y, scaled.y, box.min.y, box.max.y},
+        std::tuple{sample.z, scaled.z, box.min.z, box.max.z}})
+    if (step != 0) leave = std::min(leave, ((step > 0 ? high : low) - at) / step);
+  if (!sensor.at_infinity && size <= leave) return sensor.place - origin;
+  return sample + leave * scaled;
+}
+
+/// The samples' box and a margin that no rounding takes up.
+Box3 wide_box(const Tetrahedralization& t) {
+  Box3 box;
+  for (std::uint32_t i = 0; i < t.sample_count; ++i) box.add(t.positions.raw()[i]);
+  const double margin = box.diagonal() / 100;
+  box.min = box.min - Vec3{margin, margin, margin};
+  box.max = box.max + Vec3{margin, margin, margin};
+  return box;
+}
+
+} // namespace
+
+std::vector<SightLine> sight_lines(const PointCloud& cloud, const Tetrahedralization& t, std::span<const float> depth,
+                                   std::span<const float> left_out) {
+  std::vector<SightLine> lines;
+  if (cloud.sensor_of.empty()) return lines;
+  const std::vector<SampleIndex> sample_of = samples_of_rows(cloud, t);
+  const Box3 box = wide_box(t);
+  for (std::size_t row = 0; row < sample_of.size(); ++row) {
+    const SampleIndex s = sample_of[row];
+    const std::uint32_t sensor = cloud.sensor_of[row];
+    if (!s.valid() || sensor == PointCloud::no_sensor || (!left_out.empty() && left_out[s.value] > 0)) continue;
+    lines.push_back({s, depth[s.value], target_of(cloud.sensors[sensor], t.origin, box, t.positions[s])});
+  }
+  // In the order of the samples neighbouring lines go through the same tetrahedra.
+  const auto key = [](const SightLine& l) { return std::pair(l.sample, l.target); };
+  std::sort(lines.begin(), lines.end(), [&](const SightLine& a, const SightLine& b) { return key(a) < key(b); });
+  lines.erase(
+      std::unique(lines.begin(), lines.end(), [&](const SightLine& a, const SightLine& b) { return key(a) == key(b); }),
+      lines.end());
+  return lines;
+}
+
+SightCrossings sight_crossings(const Tetrahedralization& t, const VertexStars& stars, std::span<const SightLine> lines,
+                               Weights weights, const Labels& known, const Threads& threads) {
+  SightCrossings result;
+  result.begin.assign(lines.size() + 1, 0);
+  std::vector<std::vector<TetrahedronIndex>> blocks((lines.size() + lines_per_block - 1) / lines_per_block);
+  for_blocks(threads, lines.size(), lines_per_block, [&](std::size_t begin, std::size_t end, std::size_t b) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t before = blocks[b].size();
+      SegmentWalk walk(t, stars, lines[i].sample, lines[i].target);
+      const Ray ray(t, lines[i]);
+      while (walk.next())
+        if (walk.depth() > static_cast<double>(lines[i].depth) && known[walk.tetrahedron()] != Label::outside &&
+            (weights == Weights::paper || ray.is_clear(walk)))
+          blocks[b].push_back(walk.tetrahedron());
+      result.begin[i + 1] = blocks[b].size() - before;
+    }
+  });
+  for (std::size_t i = 0; i < lines.size(); ++i) result.begin[i + 1] += result.begin[i];
+  result.tetrahedra.resize(result.begin.back());
+  threads.run(blocks.size(), [&](std::size_t b) {
+    const auto at = static_cast<std::ptrdiff_t>(result.begin[b * lines_per_block]);
+    std::copy(blocks[b].begin(), blocks[b].end(), result.tetrahedra.begin() + at);
+    blocks[b] = {};
+  });
+  return result;
+}
+
+SightLabels line_of_sight(const Tetrahedralization& t, const VertexStars& stars, std::span<const SightLine> lines,
+                          const SightCrossings& crossings, const SightRule& rule, const Labels& known,
+                          const Threads& threads) {
+  Tally behind(t.tetrahedra.size()), crossed(t.tetrahedra.size()), believed(t.tetrahedra.size());
+  if (rule.weights == Weights::evidence)
+    for_each_index(
+        threads, lines.size(), [&](std::size_t i) { count_behind(t, stars, lines[i], behind); }, lines_per_block);
+  for_each_index(threads, crossings.tetrahedra.size(), [&](std::size_t i) { crossed.add(crossings.tetrahedra[i]); });
+  const auto is_believed = [&](std::size_t line) {
+    return std::none_of(crossings[line].begin(), crossings[line].end(),
+                        [&](TetrahedronIndex at) { return behind[at] >= least_doubt && behind[at] > crossed[at]; });
+  };
+  SightLabels result;
+  result.disbelieved = sum_blocks<std::uint64_t>(
+      threads, lines.size(),
+      [&](std::size_t begin, std::size_t end) {
+        std::uint64_t disbelieved = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+          if (is_believed(i))
+            for (const TetrahedronIndex at : crossings[i]) believed.add(at);
+          else
+            ++disbelieved;
+        }
+        return disbelieved;
+      },
+      lines_per_block);
+  result.labels = known;
+  for_each_index(threads, known.size(), [&](std::size_t i) {
+    const TetrahedronIndex at{static_cast<std::uint32_t>(i)};
+    if (known[at] != Label::unlabelled) return;
+    if (believed[at] >= rule.crossing_count && believed[at] > behind[at]) result.labels[at] = Label::outside;
+    if (rule.behind_count > 0 && behind[at] >= rule.behind_count && crossed[at] == 0) result.labels[at] = Label::inside;
+  });
+  return result;
+}
+
+std::uint64_t contradicting_lines(const SightCrossings& crossings, const Labels& labels, const Threads& threads) {
+  return sum_blocks<std::uint64_t>(
+      threads, crossings.begin.empty() ? 0 : crossings.begin.size() - 1,
+      [&](std::size_t begin, std::size_t end) {
+        std::uint64_t contradicting = 0;
+        for (std::size_t i = begin; i < end; ++i)
+          contradicting += std::any_of(crossings[i].begin(), crossings[i].end(),
+                                       [&](TetrahedronIndex at) { return labels[at] == Label::inside; });
+        return contradicting;
+      },
+      lines_per_block);
+}
+
+} // namespace eigencrust
