@@ -73,6 +73,22 @@ std::vector<Sensor> sensors_of_inputs(const InputOptions& options) {
   return sensors;
 }
 
+/// Writes down for each file which sensors saw its points; the files' points follow one another in the cloud.
+void note_sensors(const PointCloud& cloud, std::vector<InputFile>& files) {
+  if (cloud.sensor_of.empty()) return;
+  std::size_t row = 0;
+  for (InputFile& file : files) {
+    std::vector<std::uint8_t> seen(cloud.sensors.size(), 0);
+    for (const std::size_t end = row + file.points; row < end; ++row) {
+      if (cloud.sensor_of[row] == PointCloud::no_sensor) continue;
+      seen[cloud.sensor_of[row]] = 1;
+      ++file.points_with_sensor;
+    }
+    for (std::size_t i = 0; i < seen.size(); ++i)
+      if (seen[i]) file.sensors.push_back(cloud.sensors[i]);
+  }
+}
+
 } // namespace
 
 void catch_interrupts() {
@@ -133,7 +149,7 @@ PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& file
       next.sensors.assign(1, sensors[files.size()]);
       next.sensor_of.assign(next.points.size(), 0);
     }
-    files.push_back({path, sha256_of_file(path), next.points.size()});
+    files.push_back({path, sha256_of_file(path), next.points.size(), {}, 0});
     if (files.size() == 1)
       cloud = std::move(next);
     else
@@ -146,6 +162,7 @@ PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& file
     cloud.scan_index = read_scan_index(options.scan_index, cloud.points.size());
   }
   if (!options.sensors.empty() && options.sensors != "none") read_scan_sensors(options.sensors, cloud);
+  note_sensors(cloud, files);
   return cloud;
 }
 

@@ -98,10 +98,20 @@ Json json_of(const PartitionReport& p) {
           {"status", to_string(p.status)}};
 }
 
+/// What is known of the sensors of a file; null: nothing.
+Json json_of_sensors(const InputFile& file) {
+  if (file.sensors.empty()) return {};
+  constexpr std::size_t listed = 100;
+  Json places = Json::array();
+  for (std::size_t i = 0; i < std::min(listed, file.sensors.size()); ++i)
+    places.push_back({{file.sensors[i].at_infinity ? "direction" : "position", json_of(file.sensors[i].place)}});
+  return {{"count", file.sensors.size()}, {"points", file.points_with_sensor}, {"places", std::move(places)}};
+}
+
 Json json_of_input(const Report& report) {
   Json files = Json::array();
   for (const InputFile& f : report.files)
-    files.push_back({{"path", f.path}, {"sha256", f.sha256}, {"points", f.points}, {"sensor", nullptr}});
+    files.push_back({{"path", f.path}, {"sha256", f.sha256}, {"points", f.points}, {"sensor", json_of_sensors(f)}});
   Json json{{"files", std::move(files)},
             {"points", report.points},
             {"duplicates", report.duplicates},

@@ -17,6 +17,8 @@ namespace eigencrust {
 struct InputFile {
   std::string path, sha256;
   std::uint64_t points = 0;
+  std::vector<Sensor> sensors{}; ///< those that saw a point of it, in the order of the cloud's sensors
+  std::uint64_t points_with_sensor = 0;
 };
 
 struct StageReport {

@@ -158,6 +158,16 @@ test_presets() {
   equal "second stage" "$(value report.json /options/second_stage)" harmonic
 }
 
+test_report_names_the_sensors_of_each_file() {
+  sphere 400 >a.xyz
+  awk '{ print $1 + 5, $2, $3 }' a.xyz >b.xyz
+  echo '1,5,0,9' >poses.csv
+  expect 0 a.xyz b.xyz -o mesh.ply --report report.json --sensors poses.csv
+  equal "sensor of the first" "$(value report.json /input/files/0/sensor)" null
+  equal "points of the second" "$(value report.json /input/files/1/sensor/points)" 400
+  equal "place of the second" "$(value report.json /input/files/1/sensor/places/0/position/2)" 9.0
+}
+
 test_facade_stays_open() {
   awk 'BEGIN { for (i = 0; i < 1600; ++i) { x = i % 40; y = int(i / 40); print x, y, 2 * sin(x / 5) * cos(y / 6) } }' \
     >wall.xyz

@@ -23,7 +23,7 @@ std::vector<std::string> keys(const json& object) {
 Report sample_report() {
   Report report;
   report.command = {"eigencrust", "in.ply", "-o", "out \"quoted\".ply"};
-  report.files = {{"in.ply", "abc", 100}};
+  report.files = {{"in.ply", "abc", 100, {}, 0}, {"seen.ply", "def", 7, {{{1, 2, 3}, false}, {{0, 0, 1}, true}}, 5}};
   report.points = 100;
   report.duplicates = 3;
   report.nonfinite = 2;
@@ -69,6 +69,9 @@ TEST(Report, HoldsWhatItWasGiven) {
   EXPECT_EQ(j["command"][3], "out \"quoted\".ply");
   EXPECT_EQ(j["input"]["duplicates"], 3);
   EXPECT_EQ(j["input"]["bounds"]["max"], json({1.0, 2.0, 3.0}));
+  EXPECT_TRUE(j["input"]["files"][0]["sensor"].is_null());
+  EXPECT_EQ(j["input"]["files"][1]["sensor"],
+            json::parse(R"({"count":2,"points":5,"places":[{"position":[1.0,2.0,3.0]},{"direction":[0.0,0.0,1.0]}]})"));
   EXPECT_EQ(j["stages"][0]["tetrahedra"], 600);
   EXPECT_TRUE(j["stages"][0]["tetrahedra"].is_number_integer());
   EXPECT_EQ(j["stages"][0]["share"], 0.5);
