@@ -2,14 +2,13 @@
 /// \file
 /// eigencrust-robustness: a table of hard clouds through the method, with figures.
 #include <CLI/CLI.hpp>
-#include <cstdlib>
 #include <iomanip>
 #include <iostream>
 
 #include <eigencrust/error.h>
-#include <eigencrust/io.h>
 
 #include "command.h"
+#include "data_folder.h"
 #include "document.h"
 #include "runner.h"
 #include "table.h"
@@ -34,12 +33,6 @@ struct Settings {
   bool list = false, quick = false;
   unsigned threads = 0;
 };
-
-/// Where the tests look for the real data, too.
-std::string default_data() {
-  const char* folder = std::getenv("EIGENCRUST_DATA");
-  return folder != nullptr ? folder : EIGENCRUST_SOURCE_DIR "/../shared/data";
-}
 
 void list(const std::vector<Case>& cases) {
   for (const Case& c : cases) {
@@ -81,9 +74,6 @@ void run(const Settings& s, const std::vector<std::string>& command) {
 
   Sources sources(s.data, s.threads);
   std::vector<Outcome> outcomes;
-  const auto write = [&](const std::string& path, const std::string& text) {
-    if (!path.empty()) write_file_atomically(path, [&](std::ostream& out) { out << text; });
-  };
   for (const Case& c : cases) {
     outcomes.push_back(run_case(c, sources, options, [&](const Outcome& outcome, const Run& done) {
       tell(outcomes.size() + 1, cases.size(), outcome, done);
@@ -92,8 +82,8 @@ void run(const Settings& s, const std::vector<std::string>& command) {
       std::cerr << "[" << outcomes.size() << "/" << cases.size() << "] " << c.name
                 << " skipped: " << outcomes.back().skipped << std::endl;
     // After every case, so that a run that is stopped leaves what it has.
-    write(s.json, to_json(outcomes, command));
-    write(s.table, to_markdown(outcomes, options.presets, selection));
+    write_text(s.json, to_json(outcomes, command));
+    write_text(s.table, to_markdown(outcomes, options.presets, selection));
   }
   if (s.table.empty() && s.json.empty()) std::cout << to_markdown(outcomes, options.presets, selection);
 }
@@ -102,7 +92,7 @@ void run(const Settings& s, const std::vector<std::string>& command) {
 
 int main(int argc, char** argv) {
   Settings s;
-  s.data = default_data();
+  s.data = default_data_folder();
   CLI::App app(about, "eigencrust-robustness");
   app.add_option("--data", s.data, "Folder of the real data; cases whose files are not there are skipped")
       ->default_str("$EIGENCRUST_DATA or ../shared/data");
