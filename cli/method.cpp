@@ -3,6 +3,8 @@
 
 #include <iostream>
 
+#include <eigencrust/memory_forecast.h>
+
 namespace eigencrust::cli {
 namespace {
 
@@ -97,6 +99,8 @@ void add_smoothing_options(CLI::App& app, Request& r) {
 void add_run_options(CLI::App& app, Request& r) {
   app.add_option("--threads", r.threads, "Threads, 0 for all cores; the result is the same for any number")
       ->capture_default_str();
+  app.add_option("--max-memory", r.max_memory,
+                 "Refuse the cloud, before any work, if more memory is forecast: 4G, 500M, bytes [none]");
   app.add_option("--report", r.report, "Write what was done and found as JSON");
   app.add_option("--progress", r.progress, "auto, bar, jsonl or off; on stderr")
       ->check(CLI::IsMember({"auto", "bar", "jsonl", "off"}))
@@ -134,6 +138,7 @@ Options effective_options(const Request& r) {
   if (r.behind_count) o.behind_count = *r.behind_count;
   if (!r.facade.empty()) o.facade = parse_axis(r.facade);
   o.threads = r.threads;
+  if (!r.max_memory.empty()) o.max_memory = parse_memory_size(r.max_memory);
   check_options(o);
   return o;
 }
@@ -178,10 +183,20 @@ MethodRun::MethodRun(const Request& request, const Arguments& arguments, OutputK
   cloud = read_inputs(request.input, files_);
 }
 
+void MethodRun::warn_at_once(const std::string& text) {
+  if (text.empty()) return;
+  if (!request_.quiet) print_warning(text);
+  told_.push_back(text);
+}
+
 void MethodRun::reconstruct(const Options& options) {
+  check_memory(cloud, options.max_memory);
+  warn_at_once(memory_warning(forecast(cloud), available_memory_bytes()));
+  if (!request_.smoothing.empty() && options.smooth == 0) warn_at_once("--smoothing has no effect without --smooth N");
   result = eigencrust::reconstruct(cloud, options, *observer_);
   result.report.command = arguments_.command;
   result.report.files = std::move(files_);
+  result.report.warnings.insert(result.report.warnings.begin(), told_.begin(), told_.end());
 }
 
 WriteOptions MethodRun::write_options() const {
@@ -198,7 +213,7 @@ void MethodRun::finish(const WriteResult& written) {
     write_file_atomically(request_.report, [&](std::ostream& out) { out << to_json(report) << "\n"; });
   clear_progress();
   if (request_.quiet) return;
-  for (const std::string& warning : report.warnings) print_warning(warning);
+  for (std::size_t i = told_.size(); i < report.warnings.size(); ++i) print_warning(report.warnings[i]);
 }
 
 std::string MethodRun::cost() const {

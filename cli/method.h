@@ -26,6 +26,7 @@ struct Request {
   std::optional<std::uint32_t> max_steps;
   std::vector<std::string> outside_points, inside_points;
   unsigned threads = Options{}.threads;
+  std::string max_memory;
   bool quiet = false;
 };
 
@@ -51,6 +52,7 @@ class MethodRun {
 
   PointCloud cloud;
   Result result; ///< after reconstruct()
+  /// Warns at once of what need not wait for the end.
   void reconstruct(const Options& options);
   /// How the output is to be written. \throws Error{cancelled}
   [[nodiscard]] WriteOptions write_options() const;
@@ -67,6 +69,8 @@ class MethodRun {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::unique_ptr<Observer> observer_;
   std::vector<InputFile> files_;
+  std::vector<std::string> told_; ///< warnings printed before the work
+  void warn_at_once(const std::string& text);
 };
 
 } // namespace eigencrust::cli

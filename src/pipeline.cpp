@@ -2,6 +2,7 @@
 // The paper on one page. § numbers: Kolluri, Shewchuk, O'Brien, Spectral Surface Reconstruction from
 // Noisy Point Clouds (SGP 2004).
 #include <eigencrust/eigencrust.h>
+#include <eigencrust/memory_forecast.h>
 #include <eigencrust/stages.h>
 
 #include "output.h"
@@ -15,6 +16,7 @@ namespace eigencrust {
 Result reconstruct(const PointCloud& cloud, const Options& options, Observer& observer) {
   check_options(options);
   check_cloud(cloud);
+  check_memory(cloud, options.max_memory);
   const auto start = std::chrono::steady_clock::now();
   Result result;
   Report& report = result.report;

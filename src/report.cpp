@@ -73,7 +73,8 @@ Json json_of(const Options& o) {
           {"behind_count", o.behind_count},
           {"facade", o.facade ? Json(to_string(*o.facade)) : Json()},
           {"point_results", o.point_results},
-          {"threads", o.threads}};
+          {"threads", o.threads},
+          {"max_memory", o.max_memory == 0 ? Json() : Json(o.max_memory)}};
 }
 
 Json json_of(const StageReport& s) {

@@ -40,6 +40,7 @@ struct Result {
 ///         Error{input}      fewer than 5 distinct finite points, all coplanar or collinear, mismatched arrays
 ///         Error{no_surface} the labels leave no surface
 ///         Error{cancelled}  the observer asked for it
+///         Error{memory}     the forecast of memory exceeds options.max_memory
 ///         std::bad_alloc    memory exhausted
 Result reconstruct(const PointCloud& cloud, const Options& options = {}, Observer& observer = *default_observer());
 

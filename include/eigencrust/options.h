@@ -138,6 +138,8 @@ struct Options {
   bool point_results = false;
   /// Threads; 0: one per core. The result does not depend on it.
   unsigned threads = 0;
+  /// Bytes; a cloud whose forecast (memory_forecast.h) exceeds them is refused before any work. 0: no limit.
+  std::uint64_t max_memory = 0;
 
   /// The options of a preset.
   static Options of(Preset preset);

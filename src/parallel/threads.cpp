@@ -6,6 +6,7 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 
@@ -63,6 +64,8 @@ Threads::Threads(unsigned count) : impl_(std::make_unique<Impl>()) {
     for (unsigned i = 1; i < count; ++i) impl_->workers.emplace_back([impl = impl_.get()] { impl->work(); });
   } catch (const std::system_error&) {
     // The system gives no more threads. Results do not depend on their number, so fewer will do.
+  } catch (const std::bad_alloc&) {
+    // The same; and those that run already must end with this object.
   }
 }
 

@@ -90,7 +90,8 @@ TEST(Report, HoldsEveryEffectiveOption) {
                            "second_stage", "grid_spacing", "questionable", "global_sign", "min_agreement", "pole_ties",
                            "local_noise", "centring", "close_handles", "weights", "recover_share", "manifold",
                            "manifold_rule", "components", "smooth", "smoothing", "outside_points", "inside_points",
-                           "facade", "threads", "point_results", "crossing_depth", "crossing_count", "behind_count"));
+                           "facade", "threads", "max_memory", "point_results", "crossing_depth", "crossing_count",
+                           "behind_count"));
   EXPECT_EQ(o["facade"], "-y");
   EXPECT_EQ(o["inside_points"], json::array({json({1.0, 2.0, 3.0})}));
   EXPECT_TRUE(json::parse(to_json(Report{}))["options"]["facade"].is_null());

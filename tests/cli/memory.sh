@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# shellcheck shell=bash disable=SC2154
+# Status 4: memory refused or exhausted. No file appears.
+
+test_limit_below_the_forecast() {
+  sphere 3000 >cloud.xyz
+  local verb
+  for verb in reconstruct orient classify; do
+    expect_error 4 "the limit of 1.0 MB" "$verb" cloud.xyz -o out.ply --max-memory 1M --report report.json
+  done
+  expect_error 4 "3000 points" cloud.xyz -o out.ply --max-memory 1000000
+  grep -qF 'raise --max-memory to ' err || die "no remedy"
+  # Before the work: no stage begins.
+  expect 4 cloud.xyz -o out.ply --max-memory 1M --progress jsonl
+  ! grep -q '"stage"' err || die "a stage began"
+  expect_files cloud.xyz
+}
+
+test_limit_above_the_forecast() {
+  sphere 3000 >cloud.xyz
+  expect 0 cloud.xyz -o plain.ply
+  expect 0 cloud.xyz -o mesh.ply --max-memory 1G --report report.json
+  [ ! -s err ] || die "a warning"
+  same mesh.ply plain.ply
+  equal "limit in the report" "$(value report.json /options/max_memory)" 1000000000
+}
+
+test_limit_is_what_info_forecasts() {
+  sphere 3000 >cloud.xyz
+  expect 0 info cloud.xyz --json
+  local forecast
+  forecast=$(value out /forecast/memory_bytes)
+  expect 0 cloud.xyz -o mesh.ply --max-memory "$forecast"
+  rm mesh.ply
+  expect_error 4 "exceeds" cloud.xyz -o mesh.ply --max-memory $((forecast - 1))
+  expect_files cloud.xyz
+}
+
+test_forecast_is_near_the_truth() {
+  # The program's own peak on a clean sphere of 20,000 points; noise takes half as much again.
+  sphere 20000 >cloud.xyz
+  expect 0 info cloud.xyz --json
+  local forecast
+  forecast=$(value out /forecast/memory_bytes)
+  expect 0 cloud.xyz -o mesh.ply --threads 1 --report report.json
+  awk -v f="$forecast" -v p="$(value report.json /peak_memory_bytes)" 'BEGIN { exit !(f > 0.6 * p && f < 2.5 * p) }' ||
+    die "a forecast of $forecast for $(value report.json /peak_memory_bytes)"
+}
+
+# within KILOBYTES ARGUMENTS: as run, with that much address space; $status is 99 if not even --version runs in it.
+within() {
+  local limit=$1
+  shift
+  status=0
+  (
+    ulimit -v "$limit"
+    "$program" --version >out 2>err || exit 99
+    "$program" "$@" >out 2>err </dev/null
+  ) || status=$?
+}
+
+# The address space grows step by step: wherever memory ends, it is told and nothing is left over.
+test_memory_that_is_exhausted() {
+  sphere 20000 | shuffled >cloud.xyz
+  echo "the old mesh" >mesh.ply
+  cp mesh.ply old
+  local limit exhausted=0
+  for limit in 16000 18000 20000 22000 25000 28000 31000 34000 37000; do
+    within "$limit" cloud.xyz -o mesh.ply --threads 1 --report report.json
+    case $status in
+      99) continue ;;
+      0) break ;;
+      4) ;;
+      *) die "status $status with $limit kB" ;;
+    esac
+    [ ! -s out ] || die "something on stdout with $limit kB"
+    [ "$(wc -l <err)" -eq 1 ] || die "not one line on stderr with $limit kB"
+    grep -qE '^eigencrust: error: .*memory.* \(.+\); .+$' err || die "memory is not told with $limit kB"
+    same mesh.ply old
+    expect_files cloud.xyz mesh.ply old
+    exhausted=$((exhausted + 1))
+  done
+  [ "$exhausted" -ge 3 ] || skip "the limits do not fit this machine: only $exhausted runs had too little"
+}
+
+test_memory_that_is_exhausted_on_threads() {
+  sphere 20000 | shuffled >cloud.xyz
+  local limit
+  for limit in 24000 34000 44000 54000; do
+    within "$limit" cloud.xyz -o mesh.ply --threads 4
+    case $status in 0 | 4 | 99) ;; *) die "status $status with $limit kB" ;; esac
+    [ "$status" -ne 4 ] || expect_files cloud.xyz
+    rm -f mesh.ply
+  done
+}
