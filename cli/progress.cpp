@@ -141,7 +141,8 @@ void clear_progress() {
 }
 
 std::unique_ptr<Observer> make_observer(const std::string& mode, const std::filesystem::path& dump_folder, bool quiet) {
-  const bool bar = mode == "bar" || (mode == "auto" && !quiet && isatty(STDERR_FILENO) != 0);
+  if (quiet) return std::make_unique<Silent>(dump_folder); // whatever the mode: nothing but errors
+  const bool bar = mode == "bar" || (mode == "auto" && isatty(STDERR_FILENO) != 0);
   if (bar) return std::make_unique<Bar>(dump_folder);
   if (mode == "jsonl") return std::make_unique<JsonLines>(dump_folder);
   return std::make_unique<Silent>(dump_folder);

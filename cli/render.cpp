@@ -26,11 +26,11 @@ TriangleMesh read_anything(const std::string& path, bool as_points) {
 int render_verb(const Arguments& arguments) {
   std::vector<std::string> inputs;
   std::string output, up = "y", clip_normal, clip_point;
-  bool as_points = false, no_colors = false;
+  bool as_points = false, no_colors = false, own_frame = false;
   RenderOptions options;
   CLI::App app("A picture of a mesh or a cloud without a display. Back faces are red, so that inside-out is seen.",
                "eigencrust render");
-  app.add_option("MESH", inputs, "Mesh or point cloud; several are put side by side")->required();
+  app.add_option("MESH", inputs, "Mesh or point cloud; several are put side by side, in one frame")->required();
   app.add_option("-o,--output", output, "PNG to write")->required();
   app.add_option("--width", options.width, "Pixels")->capture_default_str();
   app.add_option("--height", options.height, "Pixels")->capture_default_str();
@@ -46,6 +46,7 @@ int render_verb(const Arguments& arguments) {
   app.add_option("--clip-normal", clip_normal, "x,y,z: cut away what lies on this side of the plane");
   app.add_option("--clip-point", clip_point, "x,y,z of a point of that plane [origin]");
   app.add_flag("--wireframe", options.wireframe, "Draw the edges");
+  app.add_flag("--own-frame", own_frame, "Of several: let each fit its picture by itself");
   app.add_flag("--points", as_points, "Draw the vertices of a mesh as points");
   app.add_flag("--no-colors", no_colors, "Ignore red, green and blue");
   if (const Parsed parsed = parse(app, arguments); parsed.done) return parsed.status;
@@ -60,7 +61,14 @@ int render_verb(const Arguments& arguments) {
   if (extension != ".png")
     throw Error(ErrorKind::usage, output, "pictures are written as PNG only", "end the name in .png");
   std::vector<Image> pictures;
-  for (const std::string& input : inputs) pictures.push_back(render(read_anything(input, as_points), options));
+  std::vector<TriangleMesh> meshes;
+  for (const std::string& input : inputs) {
+    meshes.push_back(read_anything(input, as_points));
+    if (!own_frame) continue;
+    pictures.push_back(render(meshes.back(), options));
+    meshes.clear();
+  }
+  if (!own_frame) pictures = render_alike(meshes, options);
   write_png(output, beside(pictures));
   return 0;
 }

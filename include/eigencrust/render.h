@@ -39,6 +39,10 @@ struct Image {
 /// \throws Error{usage} for options out of range, Error{input} when nothing finite is left to draw.
 Image render(const TriangleMesh& mesh, const RenderOptions& options = {});
 
+/// Pictures of several objects in one frame: same scale, same place. What fits the picture at zoom 1 is all of them
+/// together. \throws as render(), also when nothing of one of them is left to draw
+std::vector<Image> render_alike(const std::vector<TriangleMesh>& meshes, const RenderOptions& options = {});
+
 /// Puts pictures side by side, for comparisons. \throws Error{usage} unless all have one height.
 Image beside(const std::vector<Image>& images);
 

@@ -174,10 +174,8 @@ std::vector<ScreenDisc> screen_discs(const TriangleMesh& mesh, std::span<const s
   return discs;
 }
 
-/// Makes what is seen fit the picture. \throws Error{input} when nothing is seen
+/// Makes what is seen, which is not nothing, fit the picture.
 void frame(View& view, std::span<const Vec3> seen, const RenderOptions& o) {
-  if (seen.empty())
-    throw Error(ErrorKind::input, "render", "nothing finite is left to draw", "check the input and the clip plane");
   view.centre = seen[0]; // a first origin close by: no digits are lost far from zero
   Box3 box;
   for (const Vec3& p : seen) box.add(view.to_view(p - view.centre));
@@ -188,27 +186,51 @@ void frame(View& view, std::span<const Vec3> seen, const RenderOptions& o) {
   if (fit > 0) view.scale = o.zoom * margin / fit;
 }
 
+/// The places that the frame must hold. \throws Error{input} when nothing is seen
+std::vector<Vec3> seen_places(const TriangleMesh& mesh, const RenderOptions& o) {
+  require_valid_indices(mesh, "render");
+  std::vector<Vec3> places;
+  if (!mesh.triangles.empty())
+    places = seen_corners(mesh, o);
+  else
+    for (const std::uint32_t v : seen_points(mesh, o)) places.push_back(mesh.vertices[v]);
+  if (places.empty())
+    throw Error(ErrorKind::input, "render", "nothing finite is left to draw", "check the input and the clip plane");
+  return places;
+}
+
+Image draw(const TriangleMesh& mesh, const RenderOptions& o, const View& view, const Threads& threads) {
+  if (!mesh.triangles.empty()) {
+    const std::vector<ScreenTriangle> triangles = screen_triangles(mesh, o, view);
+    return finish(draw_triangles(triangles, o.width, o.height, o.wireframe ? 1 : 0, threads), o.background, threads);
+  }
+  const std::vector<ScreenDisc> discs = screen_discs(mesh, seen_points(mesh, o), o, view);
+  return finish(draw_discs(discs, o.width, o.height, o.point_size, threads), o.background, threads);
+}
+
 } // namespace
 
 Image render(const TriangleMesh& mesh, const RenderOptions& options) {
   check(options);
-  require_valid_indices(mesh, "render");
   View view = make_view(options);
-  const Threads threads;
-  if (!mesh.triangles.empty()) {
-    frame(view, seen_corners(mesh, options), options);
-    const double edge_width = options.wireframe ? 1 : 0;
-    const std::vector<ScreenTriangle> triangles = screen_triangles(mesh, options, view);
-    return finish(draw_triangles(triangles, options.width, options.height, edge_width, threads), options.background,
-                  threads);
+  frame(view, seen_places(mesh, options), options);
+  return draw(mesh, options, view, Threads());
+}
+
+std::vector<Image> render_alike(const std::vector<TriangleMesh>& meshes, const RenderOptions& options) {
+  check(options);
+  View view = make_view(options);
+  std::vector<Vec3> places;
+  for (const TriangleMesh& mesh : meshes) {
+    const std::vector<Vec3> more = seen_places(mesh, options);
+    places.insert(places.end(), more.begin(), more.end());
   }
-  const std::vector<std::uint32_t> seen = seen_points(mesh, options);
-  std::vector<Vec3> points;
-  for (const std::uint32_t v : seen) points.push_back(mesh.vertices[v]);
-  frame(view, points, options);
-  const std::vector<ScreenDisc> discs = screen_discs(mesh, seen, options, view);
-  return finish(draw_discs(discs, options.width, options.height, options.point_size, threads), options.background,
-                threads);
+  std::vector<Image> images;
+  if (meshes.empty()) return images;
+  frame(view, places, options);
+  const Threads threads;
+  for (const TriangleMesh& mesh : meshes) images.push_back(draw(mesh, options, view, threads));
+  return images;
 }
 
 } // namespace eigencrust

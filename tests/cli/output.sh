@@ -53,6 +53,25 @@ test_progress_jsonl() {
   grep -q '"stage":"delaunay","event":"begin"' err || die "no Delaunay stage"
 }
 
+test_quiet_wins_over_progress() {
+  sphere 500 >cloud.xyz
+  local mode
+  for mode in bar jsonl auto; do
+    expect 0 cloud.xyz -o mesh.ply -q --progress "$mode"
+    if [ -s out ] || [ -s err ]; then die "not quiet with --progress $mode"; fi
+  done
+}
+
+test_smoothing_without_steps_is_told() {
+  sphere 500 >cloud.xyz
+  expect 0 cloud.xyz -o mesh.ply --smoothing taubin --report report.json
+  equal warnings "$(grep -c '^eigencrust: warning: ' err)" 1
+  grep -qF -- '--smoothing has no effect without --smooth N' err || die "not told"
+  value report.json /warnings/0 | grep -qF -- '--smooth N' || die "not in the report"
+  expect 0 cloud.xyz -o mesh.ply --smoothing taubin --smooth 1
+  [ ! -s err ] || die "a warning in spite of --smooth"
+}
+
 test_progress_off_and_bar() {
   sphere 500 >cloud.xyz
   expect 0 cloud.xyz -o mesh.ply --progress off

@@ -34,9 +34,22 @@ test_unknown_option() {
 }
 
 test_unknown_verb() {
-  expect_error 2 output frobnicate
-  expect_error 3 frobnicate frobnicate -o mesh.ply # without a verb, the first word is an input
-  expect_files
+  expect_error 2 "the verbs are" frobnicate
+  expect_error 2 "unknown verb or no such file: frobnicate" frobnicate -o mesh.ply
+  sphere 300 >a.xyz
+  expect_error 2 "did you mean reconstruct?" recnstruct a.xyz -o mesh.ply
+  expect_error 2 "did you mean check?" chekc a.xyz
+  expect_error 2 "did you mean compare?" comp a.xyz a.xyz
+  expect_error 2 "did you mean info?" Info a.xyz
+  expect_files a.xyz
+}
+
+test_first_word_without_a_verb_is_an_input() {
+  # A file of the name wins; what looks like the name of a file is one that is missing.
+  sphere 300 >recnstruct
+  expect 0 recnstruct -o mesh.ply
+  expect_error 3 "recnstruct.xyz" recnstruct.xyz -o mesh.ply
+  expect_error 3 "scans/recnstruct" scans/recnstruct -o mesh.ply
 }
 
 test_missing_output() {
@@ -61,7 +74,7 @@ test_values_that_make_no_sense() {
     "--questionable later" "--second-stage third" "--eigensolver magic" "--smoothing none" "--smooth -1" \
     "--smooth 1001" "--tolerance 0" "--tolerance nan" "--max-steps 0" "--outside-point 1,2" \
     "--inside-point 1,2,three" "--inside-point 1,2,3,4" "--facade up" "--threads -1" "--threads 2000" \
-    "--threads many" "--progress loud" "--preset" "--sensor 1,2" "--sensor 1,2,inf" "--sensor-direction 0,0,0" \
+    "--threads many" "--max-memory none" "--max-memory 0" "--max-memory 4X" "--max-memory -1G" "--progress loud" "--preset" "--sensor 1,2" "--sensor 1,2,inf" "--sensor-direction 0,0,0" \
     "--sensor 1,2,3 --sensor 1,2,3" "--sensor 1,2,3 --sensor-direction 1,2,3" "--sensor 1,2,3 --sensors none"; do
     # shellcheck disable=SC2086
     expect_error 2 "" cloud.xyz -o mesh.ply $options

@@ -60,6 +60,42 @@ test_info() {
   [ ! -s err ] || die "something on stderr"
 }
 
+test_info_of_too_few_points() {
+  # No surface can be made of them, but what is in the file can be told.
+  printf '0 0 0\n1 0 0\n0 2 0\n0 2 0\nnan 0 0\n' >few.xyz
+  expect 0 info few.xyz
+  [ ! -s err ] || die "something on stderr"
+  grep -qF 'few.xyz: 5 points' out || die "no count"
+  grep -qF 'no surface can be made of it: only 3 distinct finite points' out || die "does not say why"
+  expect 0 info few.xyz --json
+  equal distinct "$(value out /distinct)" 3
+  equal duplicates "$(value out /duplicates)" 1
+  equal nonfinite "$(value out /nonfinite)" 1
+  equal "largest y" "$(value out /bounds/max/1)" 2.0
+  equal spacing "$(value out /spacing)" null
+  printf 'nan 0 0\n' >none.xyz
+  expect 0 info none.xyz
+  grep -qF 'no surface can be made of it: no finite point' out || die "does not say why"
+  expect 0 info none.xyz --json
+  equal bounds "$(value out /bounds)" null
+  sphere 300 >cloud.xyz
+  expect 0 info cloud.xyz --json
+  equal unusable "$(value out /unusable)" null
+}
+
+test_info_forecasts() {
+  sphere 300 >a.xyz
+  sphere 3000 2 >b.xyz
+  expect 0 info a.xyz b.xyz
+  grep -qE 'a.xyz: 300 points, forecast [0-9.]+ MB, about [0-9.]+ s$' out || die "no forecast of the first"
+  grep -qE 'forecast of reconstruct: [0-9.]+ MB, about [0-9.]+ s \(.* per point\)' out || die "no forecast of all"
+  expect 0 info a.xyz b.xyz --json
+  local a b all
+  a=$(value out /files/0/forecast/memory_bytes) b=$(value out /files/1/forecast/memory_bytes)
+  all=$(value out /forecast/memory_bytes)
+  if [ "$a" -ge "$b" ] || [ "$b" -ge "$all" ]; then die "forecasts $a, $b and $all"; fi
+}
+
 test_info_tells_of_sensors() {
   { printf 'FIELDS x y z\nVIEWPOINT 4320978.25 2 3 1 0 0 0\nPOINTS 300\nDATA ascii\n'; sphere 300; } >a.pcd
   { printf '300\n1\n0 0 9\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 9 1\n'; sphere 300; } >b.ptx
@@ -153,6 +189,18 @@ test_render() {
     rm picture.png
   done
   if [ -s out ] || [ -s err ]; then die "render says something"; fi
+}
+
+test_render_shares_one_frame() {
+  # The second object is ten times smaller: in the picture, too, unless it has a frame of its own.
+  tetrahedron >a.off
+  tetrahedron | sed -E '3,6s/1/0.1/g' >b.off
+  expect 0 render a.off b.off -o both.png --width 100 --height 80
+  equal width "$(big_endian both.png 16)" 200
+  expect 0 render a.off b.off -o own.png --width 100 --height 80 --own-frame
+  expect 0 render a.off a.off -o same.png --width 100 --height 80
+  same own.png same.png
+  ! cmp -s both.png own.png || die "the frame is not shared"
 }
 
 test_render_refuses_sizes() {

@@ -20,6 +20,7 @@ cmake --build "$work/build"
 cd "$work"
 "$work/installed here/bin/eigencrust" check sphere.ply
 "$work/installed here/bin/eigencrust" demo -o demo >demo.log
+"$work/installed here/bin/eigencrust-scan" --help >scan.log
 grep -q "installed here/share/eigencrust/examples/teapot_scan.ply" demo.log
 
 # Nothing of the machine it was built on may remain in the package.

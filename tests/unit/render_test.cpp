@@ -295,6 +295,27 @@ TEST(Render, FlatAndEdgeOnObjectsDoNotBreakIt) {
   EXPECT_NO_THROW(render(unit_box(), huge));
 }
 
+TEST(RenderAlike, SeveralShareOneFrame) {
+  // A box of side 1 and one of side 0.5 in its lower left half: the small one keeps its size and place.
+  const TriangleMesh half = shapes::box({0, 0, 0}, {0.5, 0.5, 0.5});
+  const std::vector<Image> images = render_alike({unit_box(), half}, small());
+  ASSERT_EQ(images.size(), 2u);
+  EXPECT_EQ(images[0].rgb, render(unit_box(), small()).rgb); // all of them together are the large one
+  EXPECT_NE(images[1].rgb, render(half, small()).rgb);
+  const auto large = extent(images[0]), little = extent(images[1]);
+  const auto width = [](const std::array<std::uint32_t, 4>& e) { return static_cast<double>(e[1] - e[0] + 1); };
+  EXPECT_NEAR(width(little), width(large) / 2, 2);
+  EXPECT_NEAR(little[0], large[0], 1);
+  EXPECT_NEAR(little[3], large[3], 1); // at the bottom
+}
+
+TEST(RenderAlike, MeshesAndPointsTogether) {
+  const std::vector<Image> images = render_alike({unit_box(), axis_points()}, small());
+  EXPECT_EQ(images[1].rgb, render(axis_points(), small()).rgb); // they reach farther in every direction
+  EXPECT_TRUE(render_alike({}, small()).empty());
+  EXPECT_THROW(render_alike({unit_box(), TriangleMesh{}}, small()), Error);
+}
+
 TEST(Beside, JoinsRowByRow) {
   Image a{1, 2, {1, 1, 1, 2, 2, 2}}, b{2, 2, {3, 3, 3, 4, 4, 4, 5, 5, 5, 6, 6, 6}};
   const Image both = beside({a, b});
