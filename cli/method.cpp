@@ -82,8 +82,11 @@ void add_method_options(CLI::App& app, Request& r) {
                  "Samples that must lie right in front of a tetrahedron that no line crosses to make it inside; 0: "
                  "never" +
                      defaults(std::to_string(robust.behind_count), std::to_string(paper.behind_count)));
-  app.add_option("--facade", r.facade,
-                 "One-sided scan, outside in front along +x -x +y -y +z or -z: the mesh stays open");
+  app.add_option(
+      "--facade", r.facade,
+      "One-sided scan: auto (found from the sensors), off, or outside in front along +x -x +y -y +z or -z: the "
+      "mesh stays open [auto]");
+  app.add_flag("--trim", r.trim, "Leave out triangles that the samples do not bear out: the mesh is then open");
 }
 
 void add_smoothing_options(CLI::App& app, Request& r) {
@@ -128,6 +131,7 @@ Options effective_options(const Request& r) {
   if (r.pole_ties) o.pole_ties = *r.pole_ties;
   if (r.max_steps) o.solver.max_steps = *r.max_steps;
   o.manifold = r.manifold;
+  o.trim = r.trim;
   if (!r.components.empty()) o.components = parse_components(r.components);
   if (r.smooth) o.smooth = *r.smooth;
   if (!r.smoothing.empty()) o.smoothing = parse_smoothing(r.smoothing);
@@ -136,7 +140,8 @@ Options effective_options(const Request& r) {
   if (!r.crossing_depth.empty()) o.crossing_depth = parse_crossing_depth(r.crossing_depth);
   if (r.crossing_count) o.crossing_count = *r.crossing_count;
   if (r.behind_count) o.behind_count = *r.behind_count;
-  if (!r.facade.empty()) o.facade = parse_axis(r.facade);
+  o.detect_facade = r.facade.empty() || r.facade == "auto";
+  if (!r.facade.empty() && r.facade != "auto" && r.facade != "off") o.facade = parse_axis(r.facade);
   o.threads = r.threads;
   if (!r.max_memory.empty()) o.max_memory = parse_memory_size(r.max_memory);
   check_options(o);

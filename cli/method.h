@@ -17,6 +17,7 @@ struct Request {
   std::string preset = to_string(Preset::robust);
   std::string weights, second_stage, eigensolver, questionable, grid_spacing, components, smoothing, facade;
   bool manifold = Options{}.manifold; // on in both presets
+  bool trim = Options{}.trim;
   std::optional<std::uint32_t> smooth;
   std::optional<double> tolerance;
   std::optional<bool> local_noise, centring, close_handles;

@@ -21,7 +21,7 @@ struct StageShare {
   std::string_view name;
   double share;
 };
-constexpr std::array<StageShare, 23> shares{{{"samples", 4},
+constexpr std::array<StageShare, 24> shares{{{"samples", 4},
                                              {"neighbourhoods", 2},
                                              {"noise", 2},
                                              {"delaunay", 24},
@@ -42,6 +42,7 @@ constexpr std::array<StageShare, 23> shares{{{"samples", 4},
                                              {"surface", 1},
                                              {"support", 1},
                                              {"components", 2},
+                                             {"trim", 1},
                                              {"attributes", 1},
                                              {"validate", 10}}};
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
 #include <iostream>
+#include <numbers>
 
 #include "method.h"
 
@@ -23,6 +25,10 @@ int reconstruct_verb(const Arguments& arguments) {
   if (!request.quiet) {
     std::cout << request.output << ": " << grouped(report.points) << " points in " << run.cost() << "\n"
               << describe(report.mesh);
+    if (report.one_sided)
+      std::cout << "  one-sided scan: every line of sight is within "
+                << std::lround(report.one_sided->widest_angle * 180 / std::numbers::pi)
+                << " degrees of their mean direction\n";
     if (!report.dropped_components.empty())
       std::cout << "  pieces without support left out: " << report.dropped_components.size()
                 << " (listed in --report)\n";

@@ -184,9 +184,29 @@ void require_surface(const Surface& surface) {
         "check that the points surround a volume, take a smaller --grid-spacing or off, or name an inside point");
 }
 
+std::vector<SightLine> rays_of(const PointCloud& cloud, const Tetrahedralization& t) {
+  return sight_lines(cloud, t, std::vector<float>(t.sample_count, 0), {});
+}
+
+void describe_unsupported(const Surface& surface, std::span<const std::uint8_t> unsupported, Run& run, Report& report) {
+  report.unsupported_area = share_of_area(surface, unsupported);
+  run.count("unsupported", static_cast<double>(std::count(unsupported.begin(), unsupported.end(), 1)));
+  constexpr double usual = 0.1;
+  if (report.unsupported_area > usual && !report.options.trim)
+    run.warn(std::to_string(std::lround(100 * report.unsupported_area)) +
+             " % of the surface's area was invented: no samples bear it out" +
+             (report.one_sided ? " (the sensors all lie on one side)" : "") + "; --trim leaves it out");
+}
+
+void require_trimmed(const Surface& surface) {
+  if (surface.mesh.triangles.empty())
+    throw Error(ErrorKind::no_surface, "trim", "no triangle is borne out by the samples",
+                "leave out --trim, or check the places of the sensors");
+}
+
 std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Options& options) {
   std::vector<std::string> broken;
-  if (!mesh.closed() && !options.facade) broken.emplace_back("closed");
+  if (!mesh.closed() && !options.facade && !options.trim) broken.emplace_back("closed");
   if (options.manifold && !mesh.manifold()) broken.emplace_back("manifold");
   if (options.manifold && !mesh.oriented()) broken.emplace_back("consistently oriented");
   return broken;

@@ -36,6 +36,12 @@ std::vector<float> grid_spacing_field(const PointCloud& cloud, const Samples& sa
 std::vector<float> reach_of(const std::vector<float>& grid_spacing, const Options& options, double spacing);
 /// \throws Error{no_surface}
 void require_surface(const Surface& surface);
+/// The lines of all samples, also of isolated ones.
+std::vector<SightLine> rays_of(const PointCloud& cloud, const Tetrahedralization& tetrahedralization);
+/// Notes how much of the surface is `unsupported`, and warns where much of it stays.
+void describe_unsupported(const Surface& surface, std::span<const std::uint8_t> unsupported, Run& run, Report& report);
+/// \throws Error{no_surface} when nothing is left of it
+void require_trimmed(const Surface& surface);
 /// What the options promise and the mesh is not.
 std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Options& options);
 

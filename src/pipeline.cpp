@@ -53,6 +53,7 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
     const SightLabels sight = run.stage("line_of_sight", [&] {
       const auto depth = crossing_depths(grid, options, report.spacing, t.sample_count);
       const auto lines = sight_lines(cloud, t, depth, isolated);
+      if (options.detect_facade) report.one_sided = one_sided_scan(t, lines);
       crossings = sight_crossings(t, stars, lines, options.weights, named, threads);
       return line_of_sight(t, stars, lines, crossings, {options.crossing_count, options.behind_count, options.weights},
                            named, threads);
@@ -123,6 +124,16 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   report.dropped_components =
       run.stage("components", [&] { return filter_components(surface, options.components, t, grid); });
   require_surface(surface);
+  const bool one_sided = options.facade.has_value() || report.one_sided.has_value();
+  std::vector<std::uint8_t> unsupported = run.stage(
+      "trim", [&] { return unsupported_triangles(t, around, rays_of(cloud, t), one_sided, surface, threads); });
+  describe_unsupported(surface, unsupported, run, report);
+  if (options.trim) {
+    trim(std::move(unsupported), surface);
+    for (const DroppedComponent& piece : filter_components(surface, options.components, t, grid))
+      report.dropped_components.push_back(piece);
+    require_trimmed(surface);
+  }
   if (options.point_results) {
     run.stage("points", [&] { add_point_results(cloud, t, surface, grid, threads, result); });
     run.count("inliers", static_cast<double>(std::count(result.inlier.begin(), result.inlier.end(), 1)));

@@ -3,6 +3,7 @@
 
 #include <sys/resource.h>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include <eigencrust/version.h>
 
@@ -71,7 +72,10 @@ Json json_of(const Options& o) {
           {"crossing_depth", o.crossing_depth ? Json(*o.crossing_depth) : Json("auto")},
           {"crossing_count", o.crossing_count},
           {"behind_count", o.behind_count},
-          {"facade", o.facade ? Json(to_string(*o.facade)) : Json()},
+          {"facade", o.facade          ? to_string(*o.facade)
+                     : o.detect_facade ? "auto"
+                                       : "off"},
+          {"trim", o.trim},
           {"point_results", o.point_results},
           {"threads", o.threads},
           {"max_memory", o.max_memory == 0 ? Json() : Json(o.max_memory)}};
@@ -97,6 +101,11 @@ Json json_of(const PartitionReport& p) {
           {"components", p.components},
           {"free_components", p.free_components},
           {"status", to_string(p.status)}};
+}
+
+Json json_of(const std::optional<OneSided>& scan) {
+  if (!scan) return {};
+  return {{"direction", json_of(scan->direction)}, {"widest_angle", scan->widest_angle * 180 / std::numbers::pi}};
 }
 
 /// What is known of the sensors of a file; null: nothing.
@@ -146,6 +155,8 @@ std::string to_json(const Report& report) {
                   {"undecided_nodes", report.undecided_nodes},
                   {"sight_lines", report.sight_lines},
                   {"contradicting_rays", report.contradicting_rays},
+                  {"one_sided", json_of(report.one_sided)},
+                  {"unsupported_area", report.unsupported_area},
                   {"seconds", report.seconds},
                   {"peak_memory_bytes", report.peak_memory_bytes},
                   {"warnings", report.warnings},

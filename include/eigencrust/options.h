@@ -133,6 +133,11 @@ struct Options {
   std::uint32_t behind_count = 5;
   /// One-sided scan: outside is in front, along this direction (§3.1). The result is then open.
   std::optional<Axis> facade;
+  /// Find out from the sensors whether the scan is one-sided; Report::one_sided. That makes trimming stricter and
+  /// changes no label: docs/decisions/0020.
+  bool detect_facade = true;
+  /// Leave out triangles that the samples do not bear out, see unsupported_triangles(). The result is then open.
+  bool trim = false;
   /// Also say of every input row whether it belongs to the surface, and its normal: Result::inlier,
   /// confidence and normals.
   bool point_results = false;

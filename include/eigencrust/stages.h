@@ -80,6 +80,9 @@ struct SightLine {
 std::vector<SightLine> sight_lines(const PointCloud& cloud, const Tetrahedralization& tetrahedralization,
                                    std::span<const float> depth, std::span<const float> left_out);
 
+/// What the lines say of the side they come from; none when they come from around, or there are none.
+std::optional<OneSided> one_sided_scan(const Tetrahedralization& tetrahedralization, std::span<const SightLine> lines);
+
 /// The tetrahedra that each line crosses, in their order along it (compressed rows).
 struct SightCrossings {
   std::vector<std::uint64_t> begin; ///< number of lines + 1
@@ -236,6 +239,19 @@ void measure_support(const Tetrahedralization& tetrahedralization, const FinalLa
 std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComponents& keep,
                                                 const Tetrahedralization& tetrahedralization,
                                                 std::span<const float> grid_spacing);
+
+/// The triangles that the samples do not bear out (1): their support is below 1/4, or their longest edge exceeds 10
+/// times the smallest local spacing of their vertices (of isolated ones: the typical one), or no line of sight of
+/// their vertices meets their front within 85° of the normal, in a one-sided scan: none of some vertex (not in the
+/// paper; docs/decisions/0020). Expects surface.support. \param lines as sight_lines() gives them; may be empty
+std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& tetrahedralization,
+                                                const Neighbourhoods& neighbourhoods, std::span<const SightLine> lines,
+                                                bool one_sided, const Surface& surface, const Threads& threads);
+/// The share of the surface's area that is marked.
+double share_of_area(const Surface& surface, std::span<const std::uint8_t> marked);
+/// Takes away the triangles marked, and then, at vertices with several fans, all but the largest fan: an oriented
+/// manifold surface stays one, with boundary.
+void trim(std::vector<std::uint8_t> unsupported, Surface& surface);
 
 /// Which samples belong to the surface, from the labels (not in the paper; docs/decisions/0014).
 struct Classification {

@@ -264,6 +264,12 @@ struct Partition {
   SolverStatus status = SolverStatus::trivial;
 };
 
+/// A scan from one side (not in the paper; docs/decisions/0020): all lines within 60° of their mean direction.
+struct OneSided {
+  Vec3 direction;          ///< unit vector, surface -> scanners
+  double widest_angle = 0; ///< between it and a line, radians
+};
+
 /// One piece of surface that was not kept, so that nothing is lost silently.
 struct DroppedComponent {
   std::uint32_t vertices = 0, triangles = 0;

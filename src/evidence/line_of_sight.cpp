@@ -21,6 +21,9 @@ constexpr std::size_t lines_per_block = 512;
 constexpr double matter = 3;
 // A single sample in front of a tetrahedron may be an outlier.
 constexpr std::uint32_t least_doubt = 2;
+// The lines of a façade's cameras and of one range image are within 60° of their mean, those of scans from around
+// reach 98° and more.
+constexpr double least_cosine = 0.5;
 
 /// Lines per tetrahedron. Whole numbers that only grow: the sums do not depend on the order of the lines.
 class Tally {
@@ -112,6 +115,22 @@ std::vector<SightLine> sight_lines(const PointCloud& cloud, const Tetrahedraliza
       std::unique(lines.begin(), lines.end(), [&](const SightLine& a, const SightLine& b) { return key(a) == key(b); }),
       lines.end());
   return lines;
+}
+
+std::optional<OneSided> one_sided_scan(const Tetrahedralization& t, std::span<const SightLine> lines) {
+  const auto direction_of = [&](const SightLine& line) {
+    const Vec3 way = line.target - t.positions[line.sample];
+    const double length = norm(way);
+    return length > 0 ? (1 / length) * way : Vec3{};
+  };
+  Vec3 sum;
+  for (const SightLine& line : lines) sum = sum + direction_of(line);
+  if (!(norm(sum) > 0)) return std::nullopt;
+  const Vec3 mean = (1 / norm(sum)) * sum;
+  double least = 1;
+  for (const SightLine& line : lines) least = std::min(least, dot(direction_of(line), mean));
+  if (least < least_cosine) return std::nullopt;
+  return OneSided{mean, std::acos(least)};
 }
 
 SightCrossings sight_crossings(const Tetrahedralization& t, const VertexStars& stars, std::span<const SightLine> lines,

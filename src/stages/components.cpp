@@ -7,6 +7,8 @@
 #include <eigencrust/stages.h>
 #include <eigencrust/validate.h>
 
+#include "stages/drop_triangles.h"
+
 namespace eigencrust {
 namespace {
 
@@ -92,19 +94,7 @@ std::vector<std::uint8_t> choose(const std::vector<Piece>& pieces, const KeepCom
 
 } // namespace
 
-std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComponents& keep,
-                                                const Tetrahedralization& t, std::span<const float> grid_spacing) {
-  const std::vector<Piece> pieces = measure_pieces(surface, grid_spacing);
-  const std::vector<std::uint8_t> kept = choose(pieces, keep);
-  std::vector<DroppedComponent> dropped;
-  std::vector<std::uint8_t> gone(surface.mesh.triangles.size(), 0);
-  for (std::size_t c = 0; c < pieces.size(); ++c) {
-    if (kept[c]) continue;
-    dropped.push_back({pieces[c].vertices, static_cast<std::uint32_t>(pieces[c].triangles.size()), pieces[c].support,
-                       pieces[c].centre + t.origin});
-    for (const std::uint32_t i : pieces[c].triangles) gone[i] = 1;
-  }
-  if (dropped.empty()) return dropped;
+void drop_triangles(std::span<const std::uint8_t> gone, Surface& surface) {
   Surface rest;
   std::vector<std::uint32_t> vertex_of(surface.mesh.vertices.size(), SampleIndex::none);
   for (std::size_t i = 0; i < gone.size(); ++i)
@@ -124,6 +114,22 @@ std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComp
       rest.support.push_back(surface.support[i]);
     }
   surface = std::move(rest);
+}
+
+std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComponents& keep,
+                                                const Tetrahedralization& t, std::span<const float> grid_spacing) {
+  const std::vector<Piece> pieces = measure_pieces(surface, grid_spacing);
+  const std::vector<std::uint8_t> kept = choose(pieces, keep);
+  std::vector<DroppedComponent> dropped;
+  std::vector<std::uint8_t> gone(surface.mesh.triangles.size(), 0);
+  for (std::size_t c = 0; c < pieces.size(); ++c) {
+    if (kept[c]) continue;
+    dropped.push_back({pieces[c].vertices, static_cast<std::uint32_t>(pieces[c].triangles.size()), pieces[c].support,
+                       pieces[c].centre + t.origin});
+    for (const std::uint32_t i : pieces[c].triangles) gone[i] = 1;
+  }
+  if (dropped.empty()) return dropped;
+  drop_triangles(gone, surface);
   std::stable_sort(dropped.begin(), dropped.end(),
                    [](const auto& a, const auto& b) { return a.vertices > b.vertices; });
   return dropped;

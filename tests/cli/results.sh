@@ -177,6 +177,21 @@ test_facade_stays_open() {
   [ "$(value out /boundary_edges)" -gt 0 ] || die "no boundary"
 }
 
+test_trim_keeps_what_was_seen() {
+  awk 'BEGIN { for (i = 0; i < 1600; ++i) { x = i % 40; y = int(i / 40); print x, y, 2 * sin(x / 5) * cos(y / 6) } }' \
+    >wall.xyz
+  expect 0 wall.xyz -o closed.ply --sensor 20,20,60 --report report.json
+  grep -q 'was invented' err || die "no warning"
+  grep -q 'one-sided scan' out || die "does not say that it is one-sided"
+  equal facade "$(value report.json /options/facade)" auto
+  expect 0 wall.xyz -o open.ply --sensor 20,20,60 --trim --report report.json
+  if grep -q 'was invented' err; then die "warned in vain"; fi
+  [ "$(value report.json /mesh/boundary_loops)" -gt 0 ] || die "no boundary"
+  [ "$(value report.json /mesh/vertices)" -gt 1500 ] || die "too much is gone"
+  expect 0 wall.xyz -o off.ply --sensor 20,20,60 --facade off --report report.json
+  equal "one-sided" "$(value report.json /one_sided)" null
+}
+
 test_verb_may_be_left_out() {
   sphere 500 >cloud.xyz
   expect 0 cloud.xyz -o a.ply

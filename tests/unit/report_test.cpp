@@ -49,10 +49,10 @@ TEST(Report, HasTheSchemaOfTheDocumentation) {
   const json j = json::parse(to_json(sample_report()));
   EXPECT_EQ(j["schema"], 1);
   EXPECT_EQ(j["version"], version());
-  EXPECT_THAT(keys(j),
-              IsSupersetOf({"schema", "version", "command", "input", "options", "stages", "partitions", "mesh",
-                            "grid_spacing", "dropped_components", "undecided_nodes", "sight_lines",
-                            "contradicting_rays", "seconds", "peak_memory_bytes", "warnings", "broken_guarantees"}));
+  EXPECT_THAT(keys(j), IsSupersetOf({"schema", "version", "command", "input", "options", "stages", "partitions", "mesh",
+                                     "grid_spacing", "dropped_components", "undecided_nodes", "sight_lines",
+                                     "contradicting_rays", "one_sided", "unsupported_area", "seconds",
+                                     "peak_memory_bytes", "warnings", "broken_guarantees"}));
   EXPECT_THAT(keys(j["input"]), IsSupersetOf({"files", "points", "duplicates", "nonfinite", "spacing", "bounds"}));
   EXPECT_THAT(keys(j["input"]["files"][0]), IsSupersetOf({"path", "sha256", "points"}));
   EXPECT_THAT(keys(j["stages"][0]), IsSupersetOf({"name", "seconds", "peak_memory_bytes", "tetrahedra"}));
@@ -85,16 +85,16 @@ TEST(Report, HoldsWhatItWasGiven) {
 
 TEST(Report, HoldsEveryEffectiveOption) {
   const json o = json::parse(to_json(sample_report()))["options"];
-  EXPECT_THAT(keys(o), testing::UnorderedElementsAre(
-                           "preset", "eigensolver", "stop_on_stable_signs", "stable_share", "tolerance", "max_steps",
-                           "second_stage", "grid_spacing", "questionable", "global_sign", "min_agreement", "pole_ties",
-                           "local_noise", "centring", "close_handles", "weights", "recover_share", "manifold",
-                           "manifold_rule", "components", "smooth", "smoothing", "outside_points", "inside_points",
-                           "facade", "threads", "max_memory", "point_results", "crossing_depth", "crossing_count",
-                           "behind_count"));
+  EXPECT_THAT(keys(o),
+              testing::UnorderedElementsAre(
+                  "preset", "eigensolver", "stop_on_stable_signs", "stable_share", "tolerance", "max_steps",
+                  "second_stage", "grid_spacing", "questionable", "global_sign", "min_agreement", "pole_ties",
+                  "local_noise", "centring", "close_handles", "weights", "recover_share", "manifold", "manifold_rule",
+                  "components", "smooth", "smoothing", "outside_points", "inside_points", "facade", "threads",
+                  "max_memory", "point_results", "crossing_depth", "crossing_count", "behind_count", "trim"));
   EXPECT_EQ(o["facade"], "-y");
   EXPECT_EQ(o["inside_points"], json::array({json({1.0, 2.0, 3.0})}));
-  EXPECT_TRUE(json::parse(to_json(Report{}))["options"]["facade"].is_null());
+  EXPECT_EQ(json::parse(to_json(Report{}))["options"]["facade"], "auto");
 }
 
 TEST(Report, OfNothingStillParses) {

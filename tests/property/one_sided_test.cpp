@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scans from one side: what is kept was seen, and what was invented is told.
+#include <eigencrust/eigencrust.h>
+#include <eigencrust/io.h>
+#include <eigencrust/stages.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "parallel/threads.h"
+#include "support.h"
+
+namespace eigencrust {
+namespace {
+
+/// The castle with the camera nearest to the mean direction of those that saw a point.
+PointCloud castle() {
+  PointCloud cloud;
+  std::ifstream cameras(data_path("castle/cameras.txt")), points(data_path("castle/points_vis.txt"));
+  for (std::string line; std::getline(cameras, line);) {
+    std::istringstream words(line);
+    int index = 0;
+    Vec3 p;
+    if (words >> index >> p.x >> p.y >> p.z) cloud.sensors.push_back({p, false});
+  }
+  for (std::string line; std::getline(points, line);) {
+    std::istringstream words(line);
+    Vec3 p, mean;
+    std::size_t views = 0, camera = 0;
+    if (!(words >> p.x >> p.y >> p.z >> views)) continue;
+    std::vector<std::uint32_t> seen_by;
+    const auto direction = [&](std::uint32_t c) {
+      const Vec3 way = cloud.sensors[c].place - p;
+      return (1 / norm(way)) * way;
+    };
+    while (words >> camera) {
+      seen_by.push_back(static_cast<std::uint32_t>(camera));
+      mean = mean + direction(seen_by.back());
+    }
+    cloud.points.push_back(p);
+    cloud.sensor_of.push_back(*std::max_element(seen_by.begin(), seen_by.end(), [&](auto a, auto b) {
+      return dot(direction(a), mean) < dot(direction(b), mean);
+    }));
+  }
+  return cloud;
+}
+
+PointCloud kinect(const std::filesystem::path& file) {
+  PointCloud cloud = read_point_cloud(file);
+  cloud.sensors = {{{0, 0, 0}, false}};
+  cloud.sensor_of.assign(cloud.points.size(), 0);
+  return cloud;
+}
+
+/// Every triangle has been seen by the sensors of its vertices and has no long edge, measured from the mesh alone.
+void expect_seen(const Result& result, const PointCloud& cloud) {
+  const Samples samples = prepare_samples(cloud.points, Threads(2));
+  const Neighbourhoods around = sample_neighbourhoods(samples.positions.raw(), Threads(2));
+  std::vector<double> spacing(cloud.points.size(), 0);
+  for (std::uint32_t s = 0; s < samples.source.size(); ++s)
+    spacing[samples.source.raw()[s]] = around.isolated[s] > 0 ? around.typical : static_cast<double>(around.spacing[s]);
+  const auto& attributes = result.mesh.vertex_attributes;
+  const auto source =
+      std::find_if(attributes.begin(), attributes.end(), [](const Attribute& a) { return a.name == "source_index"; });
+  ASSERT_NE(source, attributes.end());
+  std::vector<std::uint32_t> row(result.mesh.vertices.size());
+  ASSERT_EQ(source->values.size(), 4 * row.size());
+  std::memcpy(row.data(), source->values.data(), source->values.size());
+  std::size_t flat = 0, wide = 0;
+  for (const auto& triangle : result.mesh.triangles) {
+    std::array<Vec3, 3> p;
+    double longest = 0, local = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) p[k] = result.mesh.vertices[triangle[k]];
+    const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      longest = std::max(longest, distance(p[k], p[(k + 1) % 3]));
+      local = std::min(local, spacing[row[triangle[k]]]);
+      const Vec3 way = cloud.sensors[cloud.sensor_of[row[triangle[k]]]].place - p[k];
+      flat += dot(way, normal) < std::cos(85.001 * 3.141592653589793 / 180) * norm(way) * norm(normal);
+    }
+    wide += longest > 10 * local;
+  }
+  EXPECT_EQ(wide, 0u);
+  // Samples with a duplicate may have been seen by the sensor of another row.
+  EXPECT_LE(flat, samples.duplicates / 20);
+  testing::Test::RecordProperty("flat", static_cast<int>(flat));
+}
+
+void expect_trimmed(const PointCloud& cloud, double least_kept) {
+  Options options;
+  const Result closed = reconstruct(cloud, options);
+  EXPECT_TRUE(closed.report.mesh.closed());
+  EXPECT_TRUE(closed.report.one_sided.has_value());
+  EXPECT_GT(closed.report.unsupported_area, 0.3);
+  EXPECT_THAT(closed.report.warnings, testing::Contains(testing::HasSubstr("invented")));
+  options.trim = true;
+  const Result open = reconstruct(cloud, options);
+  EXPECT_THAT(open.report.broken_guarantees, testing::IsEmpty());
+  EXPECT_GT(open.report.mesh.boundary_loops, 0u);
+  EXPECT_TRUE(open.report.mesh.manifold() && open.report.mesh.oriented());
+  EXPECT_THAT(open.report.warnings, testing::Not(testing::Contains(testing::HasSubstr("invented"))));
+  EXPECT_GT(static_cast<double>(open.mesh.vertices.size()),
+            least_kept * static_cast<double>(closed.mesh.vertices.size()));
+  expect_seen(open, cloud);
+}
+
+TEST(OneSided, CastleFacadeIsTrimmedToWhatWasSeen) {
+  EIGENCRUST_NEED_DATA(data_path("castle/points_vis.txt"));
+  EIGENCRUST_NEED_DATA(data_path("castle/cameras.txt"));
+  expect_trimmed(castle(), 0.95);
+}
+
+TEST(OneSided, RangeImageIsTrimmedToWhatWasSeen) {
+  const auto file = data_path("range_images/capture0001.pcd");
+  EIGENCRUST_NEED_DATA(file);
+  expect_trimmed(kinect(file), 0.95);
+}
+
+TEST(OneSided, AScanFromAroundIsNot) {
+  const auto file = data_path("ignatius/ignatius_99_sensors.ply");
+  EIGENCRUST_NEED_DATA(file);
+  EXPECT_FALSE(reconstruct(read_point_cloud(file)).report.one_sided.has_value());
+}
+
+} // namespace
+} // namespace eigencrust
