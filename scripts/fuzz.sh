@@ -10,13 +10,14 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/packages.sh"
 seconds=${1:-5}
 case $seconds in '' | *[!0-9]*) fail "SECONDS is a whole number, not '$seconds'" ;; esac
 formats=("${@:2}")
-[ ${#formats[@]} -gt 0 ] || formats=(e57 las npz npy ptx pcd pts ply obj off stl xyz csv)
+[ ${#formats[@]} -gt 0 ] || formats=(e57 las npz npy ptx pcd pts ply obj off stl xyz csv vis images.bin images.txt
+  sensors.csv index.txt)
 
 install_packages "${build_packages[@]}" "${fuzz_packages[@]}"
 cmake -S "$repository" -B "$repository/build-fuzz" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_COMPILER_LAUNCHER="$(command -v ccache || true)" \
   -DEIGENCRUST_BUILD_TESTS=OFF -DEIGENCRUST_BUILD_TOOLS=OFF -DEIGENCRUST_BUILD_FUZZERS=ON
-cmake --build "$repository/build-fuzz" --parallel "$(job_count)" --target fuzz_read_cloud
+cmake --build "$repository/build-fuzz" --parallel "$(job_count)" --target fuzz_read_cloud fuzz_read_sensors
 
 data=${EIGENCRUST_DATA:-$repository/../shared/data}
 found=$repository/build-fuzz/found
@@ -29,8 +30,12 @@ for format in "${formats[@]}"; do
   for seeds in "$repository/fuzz/seeds/$format" "$data/formats/$format"; do
     [ ! -d "$seeds" ] || find "$seeds" -type f -size -64k -exec cp --no-preserve=mode -t "$corpus" {} +
   done
+  case $format in
+    vis | images.* | sensors.csv | index.txt) fuzzer=fuzz_read_sensors ;;
+    *) fuzzer=fuzz_read_cloud ;;
+  esac
   printf '== %s, %s s\n' "$format" "$seconds"
-  EIGENCRUST_FUZZ_FORMAT=$format "$repository/build-fuzz/fuzz_read_cloud" -max_total_time="$seconds" -timeout=10 \
+  EIGENCRUST_FUZZ_FORMAT=$format "$repository/build-fuzz/$fuzzer" -max_total_time="$seconds" -timeout=10 \
     -rss_limit_mb=2048 -malloc_limit_mb=1024 -max_len=65536 -print_final_stats=1 -verbosity=0 -print_funcs=0 \
     -artifact_prefix="$found/$format-" "$corpus" 2>&1 | grep -vE '^(INFO|#|"|stat::(new|slowest|average))' || status=1
 done

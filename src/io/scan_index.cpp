@@ -3,7 +3,7 @@
 
 #include <eigencrust/io.h>
 
-#include "io/file_content.h"
+#include "io/scan_files.h"
 #include "io/text.h"
 
 namespace eigencrust {
@@ -23,10 +23,9 @@ std::vector<std::uint32_t> read_numbers(const io::FileContent& file) {
 
 } // namespace
 
-std::vector<std::uint32_t> read_scan_index(const std::filesystem::path& path, std::size_t points) {
-  const io::FileContent file(path);
+std::vector<std::uint32_t> io::read_scan_index(const io::FileContent& file, std::size_t points) {
   std::vector<std::uint32_t> scans;
-  if (io::equal_ignoring_case(path.extension().string(), ".u8")) {
+  if (io::equal_ignoring_case(std::filesystem::path(file.name()).extension().string(), ".u8")) {
     for (const char c : file.bytes()) scans.push_back(static_cast<unsigned char>(c));
   } else {
     scans = read_numbers(file);
@@ -35,6 +34,10 @@ std::vector<std::uint32_t> read_scan_index(const std::filesystem::path& path, st
     file.fail("the file holds " + io::plural(scans.size(), "scan number") + " for " + io::plural(points, "point"),
               "give exactly one number for each point");
   return scans;
+}
+
+std::vector<std::uint32_t> read_scan_index(const std::filesystem::path& path, std::size_t points) {
+  return io::read_scan_index(io::FileContent(path), points);
 }
 
 } // namespace eigencrust

@@ -7,7 +7,7 @@
 
 #include <eigencrust/io.h>
 
-#include "io/file_content.h"
+#include "io/scan_files.h"
 #include "io/text.h"
 
 namespace eigencrust {
@@ -107,8 +107,7 @@ SensorOfScan read_rows(const io::FileContent& file, std::uint64_t scans, bool& n
 
 } // namespace
 
-void read_scan_sensors(const std::filesystem::path& path, PointCloud& cloud) {
-  const io::FileContent file(path);
+void io::read_scan_sensors(const io::FileContent& file, PointCloud& cloud) {
   std::uint64_t scans = 1;
   for (const std::uint32_t scan : cloud.scan_index) scans = std::max(scans, std::uint64_t{scan} + 1);
   bool numbered = false;
@@ -128,6 +127,10 @@ void read_scan_sensors(const std::filesystem::path& path, PointCloud& cloud) {
     const auto found = number.find(cloud.scan_index.empty() ? 0 : cloud.scan_index[i]);
     if (found != number.end()) cloud.sensor_of[i] = found->second;
   }
+}
+
+void read_scan_sensors(const std::filesystem::path& path, PointCloud& cloud) {
+  io::read_scan_sensors(io::FileContent(path), cloud);
 }
 
 } // namespace eigencrust
