@@ -71,6 +71,8 @@ void add_method_options(CLI::App& app, Request& r) {
       ->allow_extra_args(false);
   app.add_option("--inside-point", r.inside_points, "x,y,z of a point known to be inside; repeatable")
       ->allow_extra_args(false);
+  app.add_option("--outside-points", r.outside_files, "File of points known to be outside; repeatable");
+  app.add_option("--inside-points", r.inside_files, "File of points known to be inside; repeatable");
   app.add_option("--crossing-depth", r.crossing_depth,
                  "Where sensors are known: a line of sight crosses what it enters farther than this from its sample; "
                  "auto or a length" +
@@ -137,6 +139,12 @@ Options effective_options(const Request& r) {
   if (!r.smoothing.empty()) o.smoothing = parse_smoothing(r.smoothing);
   for (const std::string& text : r.outside_points) o.outside_points.push_back(parse_point(text));
   for (const std::string& text : r.inside_points) o.inside_points.push_back(parse_point(text));
+  for (const auto& [files, points] :
+       {std::pair{&r.outside_files, &o.outside_points}, std::pair{&r.inside_files, &o.inside_points}})
+    for (const std::string& file : *files) {
+      const PointCloud named = read_point_cloud(file);
+      points->insert(points->end(), named.points.begin(), named.points.end());
+    }
   if (!r.crossing_depth.empty()) o.crossing_depth = parse_crossing_depth(r.crossing_depth);
   if (r.crossing_count) o.crossing_count = *r.crossing_count;
   if (r.behind_count) o.behind_count = *r.behind_count;

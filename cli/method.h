@@ -25,7 +25,7 @@ struct Request {
   std::string crossing_depth;
   std::optional<std::uint32_t> crossing_count, behind_count;
   std::optional<std::uint32_t> max_steps;
-  std::vector<std::string> outside_points, inside_points;
+  std::vector<std::string> outside_points, inside_points, outside_files, inside_files;
   unsigned threads = Options{}.threads;
   std::string max_memory;
   bool quiet = false;

@@ -7,88 +7,99 @@
 
 #include "output.h"
 #include "parallel/threads.h"
+#include "pipeline.h"
 #include "point_results.h"
 #include "run.h"
 #include "snapshots.h"
 
 namespace eigencrust {
 
-Result reconstruct(const PointCloud& cloud, const Options& options, Observer& observer) {
-  check_options(options);
-  check_cloud(cloud);
-  check_memory(cloud, options.max_memory);
-  const auto start = std::chrono::steady_clock::now();
-  Result result;
-  Report& report = result.report;
-  report.options = options;
-  const Threads threads(options.threads);
-  Run run(report, observer);
-
+FirstHalf first_half(const PointCloud& cloud, const Options& options, Run& run, Report& report,
+                     const Threads& threads) {
+  FirstHalf half;
   Samples samples = run.stage("samples", [&] { return prepare_samples(cloud.points, threads); });
   describe_input(cloud, samples, run, report, threads);
-  const Neighbourhoods around =
-      run.stage("neighbourhoods", [&] { return sample_neighbourhoods(samples.positions.raw(), threads); });
-  const auto isolated =
-      options.weights == Weights::evidence ? std::span<const float>(around.isolated) : std::span<const float>{};
+  half.around = run.stage("neighbourhoods", [&] { return sample_neighbourhoods(samples.positions.raw(), threads); });
+  const auto isolated = half.isolated(options);
   // §3.3: ℓ, of the whole cloud or of each sample; how far a sample looks for its poles
-  const std::vector<float> grid =
-      run.stage("noise", [&] { return grid_spacing_field(cloud, samples, isolated, report, threads); });
-  const std::vector<float> reach = reach_of(grid, options, report.spacing);
-  describe_noise(grid, run);
+  half.grid = run.stage("noise", [&] { return grid_spacing_field(cloud, samples, isolated, report, threads); });
+  half.reach = reach_of(half.grid, options, report.spacing);
+  describe_noise(half.grid, run);
+  const std::vector<float>&grid = half.grid, &reach = half.reach;
 
   // §3: S+ = samples and cube corners, T = Delaunay(S+), poles
-  Tetrahedralization t = run.stage("delaunay", [&] { return tetrahedralize(std::move(samples), threads); });
+  half.t = run.stage("delaunay", [&] { return tetrahedralize(std::move(samples), threads); });
+  const Tetrahedralization& t = half.t;
   run.count("tetrahedra", t.tetrahedra.size());
-  const VertexStars stars = run.stage("stars", [&] { return vertex_stars(t, threads); });
-  const Poles poles = run.stage("poles", [&] { return find_poles(t, stars, reach, threads); });
+  half.stars = run.stage("stars", [&] { return vertex_stars(t, threads); });
+  const VertexStars& stars = half.stars;
+  half.poles = run.stage("poles", [&] { return find_poles(t, stars, reach, threads); });
+  const Poles& poles = half.poles;
   run.count("poles", poles.tetrahedron.size());
 
   // §3.1: what is known beforehand, and the pole graph G
-  const Labels named = run.stage("evidence", [&] {
-    return known_labels(t, options.outside_points, options.inside_points, options.facade, threads);
+  half.known.named = run.stage("evidence", [&] {
+    Labels labels = known_labels(t, options.outside_points, options.inside_points, options.facade, threads);
+    name_poles(t, poles, options.outside_points, options.inside_points, threads, labels);
+    return labels;
   });
-  Labels known = named;
-  SightCrossings crossings;
+  const Labels& named = half.known.named;
+  half.known.labels = named;
   if (!cloud.sensor_of.empty()) {
     const SightLabels sight = run.stage("line_of_sight", [&] {
       const auto depth = crossing_depths(grid, options, report.spacing, t.sample_count);
       const auto lines = sight_lines(cloud, t, depth, isolated);
       if (options.detect_facade) report.one_sided = one_sided_scan(t, lines);
-      crossings = sight_crossings(t, stars, lines, options.weights, named, threads);
-      return line_of_sight(t, stars, lines, crossings, {options.crossing_count, options.behind_count, options.weights},
-                           named, threads);
+      half.crossings = sight_crossings(t, stars, lines, options.weights, named, threads);
+      return line_of_sight(t, stars, lines, half.crossings,
+                           {options.crossing_count, options.behind_count, options.weights}, named, threads);
     });
-    describe_sight(crossings, sight, named, run, report);
-    known = sight.labels;
+    describe_sight(half.crossings, sight, named, run, report);
+    half.known.labels = sight.labels;
   }
-  const auto questionable =
-      run.stage("questionable", [&] { return questionable_tetrahedra(t, grid, threads); }); // §3.3
+  half.questionable = run.stage("questionable", [&] { return questionable_tetrahedra(t, grid, threads); }); // §3.3
   const bool leave_out = options.questionable == Questionable::before;
-  const PoleGraph g = run.stage("pole_graph", [&] {
-    const auto left_out = leave_out ? std::span<const std::uint8_t>(questionable) : std::span<const std::uint8_t>{};
-    return pole_graph(t, stars, poles, known, left_out, isolated, threads);
+  half.graph = run.stage("pole_graph", [&] {
+    const auto left_out =
+        leave_out ? std::span<const std::uint8_t>(half.questionable) : std::span<const std::uint8_t>{};
+    return pole_graph(t, stars, poles, half.known.labels, left_out, isolated, threads);
   });
 
   // §3.2: the eigenvector of the smallest eigenvalue of L x = λ D x labels the poles
-  std::vector<std::uint32_t> component;
-  const Partition first = run.stage(
-      "partition_poles", [&] { return partition_poles(g, options.solver, threads, &component, run.checkpoint()); });
-  describe_partition("poles", g.graph, first, run, report);
+  half.first = run.stage("partition_poles", [&] {
+    return partition_poles(half.graph, options.solver, threads, &half.component, run.checkpoint());
+  });
+  describe_partition("poles", half.graph.graph, half.first, run, report);
+  return half;
+}
+
+void second_half(const PointCloud& cloud, const FirstHalf& half, const Known& before, const Partition& first,
+                 const SecondSolve& solve, const ValidateOptions& checks, Run& run, Result& result,
+                 const Threads& threads) {
+  Report& report = result.report;
+  const Options& options = report.options;
+  const Tetrahedralization& t = half.t;
+  const VertexStars& stars = half.stars;
+  const Poles& poles = half.poles;
+  const PoleGraph& g = half.graph;
+  const std::vector<float>&grid = half.grid, &reach = half.reach;
+  const auto isolated = half.isolated(options);
+  const Labels &named = before.named, &known = before.labels;
+
   PoleLabels pole_labels = run.stage("label_poles", [&] {
-    return label_poles(t, poles, g, first, component, known, options.global_sign, options.min_agreement, threads);
+    return label_poles(t, poles, g, first, half.component, known, options.global_sign, options.min_agreement, threads);
   });
   describe_pole_labels(pole_labels, run);
   run.product("poles", [&] { return snapshot_of_poles(t, poles, g, first, pole_labels.labels); });
   if (options.questionable == Questionable::after) // §3.3
-    run.count("labels_removed", static_cast<double>(unlabel_questionable(questionable, known, pole_labels.labels)));
+    run.count("labels_removed",
+              static_cast<double>(unlabel_questionable(half.questionable, known, pole_labels.labels)));
 
   // §3.4: the second graph H labels the rest
   const TetrahedronGraph h = run.stage("tetrahedron_graph", [&] {
     return tetrahedron_graph(t, poles, pole_labels.labels, options.pole_ties, reach, threads);
   });
-  const Partition second = run.stage("partition_tetrahedra", [&] {
-    return partition_tetrahedra(h, options.second_stage, options.solver, threads, run.checkpoint());
-  });
+  const Partition second = run.stage("partition_tetrahedra", [&] { return solve(h); });
   describe_partition("tetrahedra", h.graph, second, run, report);
   FinalLabels labels = run.stage("label_tetrahedra", [&] { return label_tetrahedra(h, second, pole_labels.labels); });
   if (options.centring) {
@@ -117,16 +128,16 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
       "recover", [&] { return recover_samples(t, stars, known, isolated, options.recover_share, labels.labels); });
   run.count("samples", static_cast<double>(recovered));
   if (report.sight_lines > 0)
-    describe_contradictions(contradicting_lines(crossings, labels.labels, threads), run, report);
+    describe_contradictions(contradicting_lines(half.crossings, labels.labels, threads), run, report);
   Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels); });
   run.product("surface", [&] { return snapshot_of_surface(t, surface); });
-  run.stage("support", [&] { measure_support(t, labels, around, grid, surface, threads); });
+  run.stage("support", [&] { measure_support(t, labels, half.around, grid, surface, threads); });
   report.dropped_components =
       run.stage("components", [&] { return filter_components(surface, options.components, t, grid); });
   require_surface(surface);
   const bool one_sided = options.facade.has_value() || report.one_sided.has_value();
   std::vector<std::uint8_t> unsupported = run.stage(
-      "trim", [&] { return unsupported_triangles(t, around, rays_of(cloud, t), one_sided, surface, threads); });
+      "trim", [&] { return unsupported_triangles(t, half.around, rays_of(cloud, t), one_sided, surface, threads); });
   describe_unsupported(surface, unsupported, run, report);
   if (options.trim) {
     trim(std::move(unsupported), surface);
@@ -142,12 +153,28 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
     run.stage("smoothing", [&] { smooth(surface.mesh, options.smoothing, options.smooth, threads); });
 
   result.mesh = run.stage("attributes", [&] { return finish_mesh(surface, t, cloud, options.smooth > 0); });
-  report.mesh = run.stage("validate", [&] { return validate(result.mesh, {.threads = options.threads}); });
+  report.mesh = run.stage("validate", [&] { return validate(result.mesh, checks); });
   report.broken_guarantees = broken_guarantees(report.mesh, options);
-  result.tetrahedralization = std::move(t);
   result.labels = std::move(labels.labels);
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  report.peak_memory_bytes = peak_memory_bytes();
+}
+
+Result reconstruct(const PointCloud& cloud, const Options& options, Observer& observer) {
+  check_options(options);
+  check_cloud(cloud);
+  check_memory(cloud, options.max_memory);
+  const auto start = std::chrono::steady_clock::now();
+  Result result;
+  result.report.options = options;
+  const Threads threads(options.threads);
+  Run run(result.report, observer);
+  FirstHalf half = first_half(cloud, options, run, result.report, threads);
+  const SecondSolve solve = [&](const TetrahedronGraph& h) {
+    return partition_tetrahedra(h, options.second_stage, options.solver, threads, run.checkpoint());
+  };
+  second_half(cloud, half, half.known, half.first, solve, {.threads = options.threads}, run, result, threads);
+  result.tetrahedralization = std::move(half.t);
+  result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.report.peak_memory_bytes = peak_memory_bytes();
   return result;
 }
 

@@ -68,6 +68,11 @@ Poles find_poles(const Tetrahedralization& tetrahedralization, const VertexStars
 Labels known_labels(const Tetrahedralization& tetrahedralization, std::span<const Vec3> outside_points,
                     std::span<const Vec3> inside_points, std::optional<Axis> facade, const Threads& threads);
 
+/// A pole's ball holds no sample, so what is deep within it (nearer to its centre than half the radius) is on the
+/// pole's side of the surface: poles without a label take that of the user's points there, unless they disagree.
+void name_poles(const Tetrahedralization& tetrahedralization, const Poles& poles, std::span<const Vec3> outside_points,
+                std::span<const Vec3> inside_points, const Threads& threads, Labels& known);
+
 /// What the scanner looked along when it saw a sample.
 struct SightLine {
   SampleIndex sample;

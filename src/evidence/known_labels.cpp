@@ -11,6 +11,9 @@
 namespace eigencrust {
 namespace {
 
+// How far within a pole's ball, in radii, a named point speaks for the pole.
+constexpr double deep = 0.5;
+
 std::string show(const Vec3& p) {
   return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + ")";
 }
@@ -88,6 +91,22 @@ Labels known_labels(const Tetrahedralization& t, std::span<const Vec3> outside_p
     for (const TetrahedronIndex i : at) labels[i] = Label::inside;
   }
   return labels;
+}
+
+void name_poles(const Tetrahedralization& t, const Poles& poles, std::span<const Vec3> outside_points,
+                std::span<const Vec3> inside_points, const Threads& threads, Labels& known) {
+  if (outside_points.empty() && inside_points.empty()) return;
+  const auto holds = [&](const Sphere& ball, std::span<const Vec3> points) {
+    return std::any_of(points.begin(), points.end(), [&](const Vec3& p) {
+      return squared_norm(p - t.origin - ball.centre) < deep * deep * ball.radius * ball.radius;
+    });
+  };
+  for_each_index(threads, poles.tetrahedron.size(), [&](std::size_t i) {
+    Label& label = known[poles.tetrahedron.raw()[i]];
+    const Sphere& ball = poles.sphere.raw()[i];
+    const bool outside = holds(ball, outside_points), inside = holds(ball, inside_points);
+    if (label == Label::unlabelled && outside != inside) label = outside ? Label::outside : Label::inside;
+  });
 }
 
 } // namespace eigencrust

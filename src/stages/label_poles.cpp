@@ -107,6 +107,7 @@ PoleLabels label_poles(const Tetrahedralization& t, const Poles& poles, const Po
       continue;
     }
     const TetrahedronIndex tetrahedron = poles.tetrahedron[graph.pole.raw()[node]];
+    if (known[tetrahedron] != Label::unlabelled) continue; // named after the graph was made, see Session
     const bool outside = static_cast<double>(partition.value[node]) * outside_sign > 0;
     result.labels[tetrahedron] = outside ? Label::outside : Label::inside;
   }
