@@ -192,6 +192,17 @@ test_trim_keeps_what_was_seen() {
   equal "one-sided" "$(value report.json /one_sided)" null
 }
 
+test_named_points_come_from_files() {
+  { sphere 3000; sphere 1000 0.5; } >cloud.xyz
+  echo '0 0 0' >middle.xyz
+  echo '0.75 0 0' >shell.xyz
+  expect 0 cloud.xyz -o mesh.ply --outside-points middle.xyz --inside-points shell.xyz --report report.json
+  equal outside "$(value report.json /options/outside_points/0/2)" 0.0
+  equal inside "$(value report.json /options/inside_points/0/0)" 0.75
+  equal components "$(value report.json /mesh/components)" 2
+  expect_error 3 "missing.xyz" cloud.xyz -o mesh.ply --inside-points missing.xyz
+}
+
 test_verb_may_be_left_out() {
   sphere 500 >cloud.xyz
   expect 0 cloud.xyz -o a.ply
