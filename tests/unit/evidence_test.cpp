@@ -104,6 +104,34 @@ TEST(KnownLabels, ContradictionsAreRefused) {
   EXPECT_EQ(kind_of(p.t, {{1e6, 0, 0}, {5, 5, 5}}, {}), ErrorKind{}); // outside it is, and says nothing new
 }
 
+TEST(NamePoles, ThoseInWhoseBallsAPointLiesDeep) {
+  const Prepared p = clouds::prepare(clouds::joined(clouds::sphere(800), clouds::sphere(300, 0.5)));
+  const std::vector<Vec3> outside{{0, 0, 0}, {0.1, 0, 0}, {0, 0.3, 0.8}}, inside{{0.75, 0, 0}, {0.01, 0, 0}};
+  Labels known = known_of(p.t, {}, {});
+  const Labels before = known;
+  name_poles(p.t, p.poles, outside, inside, Threads(2), known);
+  std::size_t named_outside = 0, named_inside = 0, disputed = 0;
+  for (PoleIndex i{0}; i.value < p.poles.tetrahedron.size(); ++i.value) {
+    const Sphere& ball = p.poles.sphere[i];
+    const auto holds = [&](const Vec3& q) { return distance(q - p.t.origin, ball.centre) < 0.5 * ball.radius; };
+    const bool out = std::any_of(outside.begin(), outside.end(), holds);
+    const bool in = std::any_of(inside.begin(), inside.end(), holds);
+    const TetrahedronIndex at = p.poles.tetrahedron[i];
+    if (before[at] != Label::unlabelled || out == in) {
+      EXPECT_EQ(known[at], before[at]);
+      disputed += out && in && before[at] == Label::unlabelled;
+      continue;
+    }
+    EXPECT_EQ(known[at], out ? Label::outside : Label::inside);
+    ++(out ? named_outside : named_inside);
+  }
+  EXPECT_GT(named_inside, 0u);
+  EXPECT_GT(disputed, 0u); // the poles at the centre are named both
+  Labels alone = before;
+  name_poles(p.t, p.poles, {}, {}, Threads(1), alone);
+  EXPECT_EQ(alone.raw(), before.raw());
+}
+
 TEST(KnownLabels, FacadeHasAFrontAndABack) {
   const Prepared p = clouds::prepare(clouds::random_box(60, 4));
   const std::vector<std::pair<Axis, Vec3>> axes{{Axis::plus_x, {1, 0, 0}}, {Axis::minus_x, {-1, 0, 0}},
