@@ -21,7 +21,7 @@ struct StageShare {
   std::string_view name;
   double share;
 };
-constexpr std::array<StageShare, 24> shares{{{"samples", 4},
+constexpr std::array<StageShare, 25> shares{{{"samples", 4},
                                              {"neighbourhoods", 2},
                                              {"noise", 2},
                                              {"delaunay", 24},
@@ -39,6 +39,7 @@ constexpr std::array<StageShare, 24> shares{{{"samples", 4},
                                              {"manifold", 4},
                                              {"handles", 4},
                                              {"recover", 1},
+                                             {"spikes", 1},
                                              {"surface", 1},
                                              {"support", 1},
                                              {"components", 2},

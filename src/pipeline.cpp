@@ -127,6 +127,12 @@ void second_half(const PointCloud& cloud, const FirstHalf& half, const Known& be
   const auto recovered = run.stage(
       "recover", [&] { return recover_samples(t, stars, known, isolated, options.recover_share, labels.labels); });
   run.count("samples", static_cast<double>(recovered));
+  if (options.manifold && !isolated.empty()) {
+    const auto cut = run.stage("spikes", [&] {
+      return cut_spikes(t, stars, poles, pole_labels.labels, named, half.around, grid, options.manifold_rule, labels);
+    });
+    run.count("cut", static_cast<double>(cut));
+  }
   if (report.sight_lines > 0)
     describe_contradictions(contradicting_lines(half.crossings, labels.labels, threads), run, report);
   Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels); });

@@ -221,6 +221,13 @@ std::uint64_t close_handles(const Tetrahedralization& tetrahedralization, const 
 std::uint64_t recover_samples(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
                               const Labels& known, std::span<const float> isolated, double max_share, Labels& labels);
 
+/// Cuts off spikes (and fills pits) that end in an isolated sample: where no triangle at it has a support of 0.1 (see
+/// measure_support) and the first stage (`first`) settled no tetrahedron on one side of its star, that side changes,
+/// if the surface stays a manifold with as many handles and pieces (not in the paper). \return how many
+std::uint64_t cut_spikes(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
+                         const Labels& first, const Labels& known, const Neighbourhoods& neighbourhoods,
+                         std::span<const float> grid_spacing, ManifoldRule rule, FinalLabels& labels);
+
 /// §3: the faces between inside and outside, counter-clockwise seen from outside; sample_of[v] is the
 /// sample behind vertex v, coordinates are still relative to the origin.
 struct Surface {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// In noise the surface runs through the middle of the samples (not in the paper; docs/decisions/0014).
+// In noise the surface runs through the middle of the samples (not in the paper; docs/decisions/0015).
 #include <algorithm>
 #include <cmath>
 
@@ -11,11 +11,12 @@
 namespace eigencrust {
 namespace {
 
-// Samples are taken together by runs along the Hilbert curve.
-constexpr std::uint32_t run_length = 32;
+// Samples are taken together by runs along the Hilbert curve. A run has one level: longer ones are as wide as the
+// tip of an ear, where levels differ most.
+constexpr std::uint32_t run_length = 8;
 // The middle is that of all samples within so many lengths of `reach`; of so many runs at least.
-constexpr double radius_in_reach = 1.5;
-constexpr std::size_t least_runs = 4;
+constexpr double radius_in_reach = 1;
+constexpr std::size_t least_runs = 8;
 constexpr std::size_t least_samples = 8;
 constexpr std::size_t smoothing_runs = 8;
 // Values spread over a few spacings before they are taken apart again, twice: what is thinner than that is

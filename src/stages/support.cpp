@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How well the samples bear out each triangle (not in the paper; docs/decisions/0004).
 #include <algorithm>
-#include <cmath>
 
 #include <eigencrust/stages.h>
 
 #include "parallel/threads.h"
+#include "stages/triangle_support.h"
 
 namespace eigencrust {
 namespace {
-
-// The longest edge of a triangle among evenly spread samples is about twice the distance to the third nearest.
-constexpr double full_support = 2.5;
 
 /// Across the triangle of v that has no other vertex of `inside`.
 TetrahedronIndex across(const Tetrahedralization& t, TetrahedronIndex inside, const std::array<SampleIndex, 3>& v) {
@@ -24,25 +21,12 @@ TetrahedronIndex across(const Tetrahedralization& t, TetrahedronIndex inside, co
 
 void measure_support(const Tetrahedralization& t, const FinalLabels& labels, const Neighbourhoods& neighbourhoods,
                      std::span<const float> grid_spacing, Surface& surface, const Threads& threads) {
-  const auto scale = [&](SampleIndex s) {
-    const bool isolated = neighbourhoods.isolated[s.value] > 0;
-    const double spacing = isolated ? neighbourhoods.typical : static_cast<double>(neighbourhoods.spacing[s.value]);
-    return grid_spacing.empty() ? spacing : std::max(spacing, static_cast<double>(grid_spacing[s.value]));
-  };
+  const TriangleSupport support(t, labels, neighbourhoods, grid_spacing);
   surface.support.resize(surface.mesh.triangles.size());
   for_each_index(threads, surface.support.size(), [&](std::size_t i) {
     std::array<SampleIndex, 3> v;
     for (std::size_t k = 0; k < 3; ++k) v[k] = surface.sample_of[surface.mesh.triangles[i][k]];
-    double longest = 0, mean = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      longest = std::max(longest, distance(t.positions[v[k]], t.positions[v[(k + 1) % 3]]));
-      mean += scale(v[k]) / 3;
-    }
-    const TetrahedronIndex inside = surface.inside[i], outside = across(t, inside, v);
-    const double contrast =
-        outside.valid() ? std::fabs(static_cast<double>(labels.value[outside] - labels.value[inside])) : 0;
-    const double sampling = std::min(1.0, full_support * mean / longest);
-    surface.support[i] = static_cast<float>(sampling * (1 + std::min(1.0, contrast)) / 2);
+    surface.support[i] = support(v, surface.inside[i], across(t, surface.inside[i], v));
   });
 }
 

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A sphere with a tetrahedron between its surface and one sample far from it, labelled by hand.
+#include <eigencrust/validate.h>
+#include <gtest/gtest.h>
+
+#include "clouds.h"
+#include "parallel/threads.h"
+
+namespace eigencrust {
+namespace {
+
+using clouds::Points;
+using clouds::Prepared;
+
+/// 2,000 samples stand 0.08 apart on the unit sphere (8,000: 0.04), the lonely one at `place`. All that is open has
+/// little value.
+struct Spike {
+  Threads threads{2};
+  Prepared p;
+  SampleIndex tip;
+  std::vector<TetrahedronIndex> spike; ///< between the tip and the surface
+  Labels first;
+  FinalLabels labels;
+  Neighbourhoods neighbourhoods;
+
+  Spike(const Vec3& place, std::size_t tetrahedra, std::size_t samples = 2000)
+      : p(clouds::prepare(clouds::joined(clouds::sphere(samples), {place}))) {
+    for (SampleIndex s{0}; s.value < p.t.sample_count; ++s.value)
+      if (distance(p.t.positions[s] + p.t.origin, place) < 1e-9) tip = s;
+    const std::size_t n = p.t.tetrahedra.size();
+    first = Labels(n, Label::unlabelled);
+    labels = {Labels(n, Label::outside), IndexedArray<TetrahedronIndex, float>(n, 0.05f), false};
+    const bool beyond = norm(place) > 1;
+    for (TetrahedronIndex i{0}; i.value < n; ++i.value) {
+      if (p.t.touches_cube(i) || (beyond && at_tip(i))) continue;
+      labels.labels[i] = Label::inside;
+      labels.value[i] = -0.05f;
+    }
+    neighbourhoods = sample_neighbourhoods(std::span(p.t.positions.raw()).first(p.t.sample_count), threads);
+    // Tetrahedra with a surface triangle opposite the tip, each beside the one before.
+    const Label around = beyond ? Label::outside : Label::inside;
+    for (const TetrahedronIndex i : p.stars[tip]) {
+      if (spike.size() == tetrahedra) break;
+      if (p.t.touches_cube(i) || labels.labels[across_from_tip(i)] == around) continue;
+      if (spike.empty() || is_beside(i, spike.back())) spike.push_back(i);
+    }
+    for (const TetrahedronIndex i : spike) {
+      labels.labels[i] = beyond ? Label::inside : Label::outside;
+      labels.value[i] = -labels.value[i];
+    }
+  }
+  [[nodiscard]] bool at_tip(TetrahedronIndex i) const {
+    const auto& v = p.t.tetrahedra[i];
+    return std::find(v.begin(), v.end(), tip) != v.end();
+  }
+  [[nodiscard]] TetrahedronIndex across_from_tip(TetrahedronIndex i) const {
+    const auto& v = p.t.tetrahedra[i];
+    return p.t.neighbours[i][static_cast<std::size_t>(std::find(v.begin(), v.end(), tip) - v.begin())];
+  }
+  [[nodiscard]] bool is_beside(TetrahedronIndex i, TetrahedronIndex j) const {
+    const auto& n = p.t.neighbours[i];
+    return std::find(n.begin(), n.end(), j) != n.end();
+  }
+  [[nodiscard]] Surface surface() const { return extract_surface(p.t, labels.labels); }
+  [[nodiscard]] bool tip_on_surface() const {
+    const Surface s = surface();
+    return std::find(s.sample_of.begin(), s.sample_of.end(), tip) != s.sample_of.end();
+  }
+  std::uint64_t cut() {
+    return cut_spikes(p.t, p.stars, p.poles, first, p.known, neighbourhoods, {}, ManifoldRule::cheapest, labels);
+  }
+  void expect_uncut() {
+    const FinalLabels before = labels;
+    EXPECT_EQ(cut(), 0u);
+    EXPECT_EQ(labels.labels.raw(), before.labels.raw());
+    EXPECT_EQ(labels.value.raw(), before.value.raw());
+  }
+};
+
+TEST(Spikes, AreCutWhereNoPoleVouchesForThem) {
+  for (const std::size_t tetrahedra : {1u, 2u}) {
+    Spike spike({0.3, 0.2, 3}, tetrahedra);
+    ASSERT_EQ(spike.spike.size(), tetrahedra);
+    ASSERT_GT(spike.neighbourhoods.isolated[spike.tip.value], 0);
+    ASSERT_TRUE(spike.tip_on_surface());
+    EXPECT_EQ(spike.cut(), 1u);
+    for (const TetrahedronIndex i : spike.spike) {
+      EXPECT_EQ(spike.labels.labels[i], Label::outside);
+      EXPECT_GT(spike.labels.value[i], 0);
+    }
+    // What is left is the sphere, with all its samples.
+    EXPECT_EQ(spike.surface().mesh.vertices.size(), 2000u);
+    EXPECT_FALSE(spike.tip_on_surface());
+    const MeshSummary summary = validate(spike.surface().mesh);
+    EXPECT_TRUE(summary.closed() && summary.manifold());
+  }
+}
+
+TEST(Spikes, PitsAreFilled) {
+  Spike pit({0.02, 0.01, 0.03}, 1, 8000);
+  ASSERT_EQ(pit.spike.size(), 1u);
+  pit.neighbourhoods.isolated[pit.tip.value] = 1; // 25 spacings from everything: a support of 0.05
+  ASSERT_TRUE(pit.tip_on_surface());
+  EXPECT_EQ(pit.cut(), 1u);
+  EXPECT_EQ(pit.labels.labels[pit.spike.front()], Label::inside);
+  EXPECT_EQ(pit.surface().mesh.vertices.size(), 8000u);
+}
+
+TEST(Spikes, StayWhereTheFirstStageSettledThem) {
+  Spike spike({0.3, 0.2, 3}, 2);
+  spike.first[spike.spike.front()] = Label::inside;
+  // The other way, turning the tip's surroundings, would drown the sphere: they touch the cube.
+  spike.expect_uncut();
+}
+
+TEST(Spikes, StayWhereTheTipIsNotAlone) {
+  Spike spike({0.3, 0.2, 3}, 1);
+  spike.neighbourhoods.isolated[spike.tip.value] = 0;
+  spike.expect_uncut();
+}
+
+TEST(Spikes, ShortOnesAndSureOnesStay) {
+  Spike near({0.1, 0.05, 1.5}, 1); // 6 spacings: a support of 0.2
+  near.neighbourhoods.isolated[near.tip.value] = 1;
+  near.expect_uncut();
+
+  Spike sure({0.3, 0.2, 2.2}, 1); // 15 spacings and full contrast: 0.17
+  ASSERT_GT(sure.neighbourhoods.isolated[sure.tip.value], 0);
+  for (TetrahedronIndex i{0}; i.value < sure.labels.value.size(); ++i.value)
+    sure.labels.value[i] = sure.labels.labels[i] == Label::inside ? -1.0f : 1.0f;
+  sure.expect_uncut();
+}
+
+// An unscanned side is closed with triangles as long as any spike's; its corners are no isolated samples.
+TEST(Spikes, LidsStay) {
+  Points bowl = clouds::sphere(4000);
+  std::erase_if(bowl, [](const Vec3& p) { return p.z > 0; });
+  Prepared p = clouds::prepare(bowl);
+  Labels first(p.t.tetrahedra.size(), Label::unlabelled);
+  FinalLabels labels{Labels(p.t.tetrahedra.size(), Label::outside),
+                     IndexedArray<TetrahedronIndex, float>(p.t.tetrahedra.size(), 0.0f), false};
+  for (TetrahedronIndex i{0}; i.value < p.t.tetrahedra.size(); ++i.value)
+    if (!p.t.touches_cube(i)) labels.labels[i] = Label::inside;
+  const Threads threads(2);
+  const Neighbourhoods around = sample_neighbourhoods(std::span(p.t.positions.raw()).first(p.t.sample_count), threads);
+  const Labels before = labels.labels;
+  EXPECT_EQ(cut_spikes(p.t, p.stars, p.poles, first, p.known, around, {}, ManifoldRule::cheapest, labels), 0u);
+  EXPECT_EQ(labels.labels.raw(), before.raw());
+}
+
+} // namespace
+} // namespace eigencrust
