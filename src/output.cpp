@@ -6,6 +6,8 @@
 
 #include <eigencrust/io.h>
 
+#include "parallel/threads.h"
+
 namespace eigencrust {
 namespace {
 
@@ -47,12 +49,11 @@ void check_cloud(const PointCloud& cloud) {
   check_sensors(cloud);
 }
 
-void describe_input(const PointCloud& cloud, const Samples& samples, Run& run, Report& report, const Threads& threads) {
+void describe_input(const PointCloud& cloud, const Samples& samples, Run& run, Report& report) {
   report.points = cloud.points.size();
   report.duplicates = samples.duplicates;
   report.nonfinite = samples.nonfinite;
   report.bounds = samples.bounds;
-  report.spacing = median_spacing(samples, cloud.points, {}, threads);
   if (samples.fused > 0)
     run.warn(std::to_string(samples.fused) +
              " distinct points fell together: the cloud is too wide for double precision; remove far strays");
@@ -65,7 +66,7 @@ void describe_noise(const std::vector<float>& grid_spacing, Run& run) {
                                     std::pair{"grid_spacing_q90", 0.9}}) {
     const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1));
     std::nth_element(sorted.begin(), at, sorted.end());
-    run.count(name, static_cast<double>(*at));
+    run.count("noise", name, static_cast<double>(*at));
   }
 }
 
@@ -119,14 +120,19 @@ void describe_manifold(const ManifoldCounts& counts, const Labels& known, const 
     run.warn(std::to_string(overruled) + " tetrahedra named inside or outside were overruled by the manifold repair");
 }
 
-void describe_partition(const std::string& name, const SignedGraph& graph, const Partition& partition, Run& run,
+std::uint64_t edge_count(const SignedGraph& graph) {
+  std::uint64_t edges = graph.column.size() / 2;
+  for (const SignedGraph::Supernode& super : graph.supernodes)
+    for (const float w : super.weight) edges += w != 0;
+  return edges;
+}
+
+void describe_partition(const std::string& name, std::uint64_t edges, const Partition& partition, Run& run,
                         Report& report) {
   PartitionReport entry;
   entry.stage = name;
-  entry.nodes = graph.node_count();
-  entry.edges = graph.column.size() / 2;
-  for (const SignedGraph::Supernode& super : graph.supernodes)
-    for (const float w : super.weight) entry.edges += w != 0;
+  entry.nodes = partition.value.size();
+  entry.edges = edges;
   entry.eigenvalue = partition.eigenvalue;
   entry.residual = partition.residual;
   entry.iterations = partition.iterations;
@@ -146,35 +152,6 @@ void describe_pole_labels(const PoleLabels& labels, Run& run) {
   run.count("supernode_overruled", labels.reversed ? 1 : 0);
   run.count("contradicted", static_cast<double>(labels.contradicted));
   run.count("left_to_stage_two", static_cast<double>(labels.left_to_stage_two));
-}
-
-std::vector<float> grid_spacing_field(const PointCloud& cloud, const Samples& samples, std::span<const float> isolated,
-                                      Report& report, const Threads& threads) {
-  const Options& options = report.options;
-  if (options.questionable == Questionable::never) return {};
-  report.grid_spacing = resolve_grid_spacing(options.grid_spacing, samples, cloud.points, cloud.scan_index, threads);
-  // What is measured at the samples replaces the one ℓ of all scans, which costs detail (docs/decisions/0012).
-  if (options.grid_spacing.kind != GridSpacing::Kind::automatic || !options.local_noise)
-    return report.grid_spacing > 0
-               ? std::vector<float>(samples.positions.size(), static_cast<float>(report.grid_spacing))
-               : std::vector<float>{};
-  // Four times ℓ is the length below which a tetrahedron may be noise alone (docs/decisions/0012).
-  constexpr float grid_spacing_in_deviations = 1.2f;
-  std::vector<float> field = std::move(noise_scale(samples, isolated, threads).raw());
-  for (float& value : field) value *= grid_spacing_in_deviations;
-  const bool some = std::any_of(field.begin(), field.end(), [](float value) { return value > 0; });
-  return some ? field : std::vector<float>{};
-}
-
-std::vector<float> reach_of(const std::vector<float>& grid_spacing, const Options& options, double spacing) {
-  if (!options.local_noise || grid_spacing.empty()) return {};
-  // Twice ℓ is 2.4 σ: from the middle of the noise to where it thins out on either side.
-  constexpr float reach_in_grid_spacings = 2;
-  std::vector<float> reach = grid_spacing;
-  // Beyond a dozen spacings there are thousands of samples to look at, and none knows better.
-  const float farthest = 12 * static_cast<float>(spacing);
-  for (float& r : reach) r = static_cast<double>(r) < spacing ? 0 : std::min(farthest, reach_in_grid_spacings * r);
-  return reach;
 }
 
 void require_surface(const Surface& surface) {
@@ -210,6 +187,23 @@ std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Option
   if (options.manifold && !mesh.manifold()) broken.emplace_back("manifold");
   if (options.manifold && !mesh.oriented()) broken.emplace_back("consistently oriented");
   return broken;
+}
+
+bool is_exact_translation(const Tetrahedralization& t, const PointCloud& cloud, const Threads& threads) {
+  // What p - o loses by rounding (Knuth's exact difference); all operations are single ones.
+  const auto lost = [](double p, double o) {
+    const double d = p - o, back = p - d;
+    return (p - (d + back)) + (back - o);
+  };
+  const auto rounded = sum_blocks<std::uint64_t>(threads, t.sample_count, [&](std::size_t begin, std::size_t end) {
+    std::uint64_t count = 0;
+    for (std::size_t s = begin; s < end; ++s) {
+      const Vec3& p = cloud.points[t.source.raw()[s]];
+      count += lost(p.x, t.origin.x) != 0 || lost(p.y, t.origin.y) != 0 || lost(p.z, t.origin.z) != 0;
+    }
+    return count;
+  });
+  return rounded == 0;
 }
 
 TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, const PointCloud& cloud, bool moved) {

@@ -12,8 +12,7 @@ namespace eigencrust {
 
 /// \throws Error{input} when an array of the cloud has the wrong length
 void check_cloud(const PointCloud& cloud);
-/// Also measures the spacing.
-void describe_input(const PointCloud& cloud, const Samples& samples, Run& run, Report& report, const Threads& threads);
+void describe_input(const PointCloud& cloud, const Samples& samples, Run& run, Report& report);
 void describe_noise(const std::vector<float>& grid_spacing, Run& run);
 /// How far in front of each sample a tetrahedron must begin to count as crossed.
 std::vector<float> crossing_depths(const std::vector<float>& grid_spacing, const Options& options, double spacing,
@@ -24,16 +23,11 @@ void describe_sight(const SightCrossings& crossings, const SightLabels& sight, c
 void describe_contradictions(std::uint64_t contradicting, Run& run, Report& report);
 void describe_labels(const FinalLabels& labels, Run& run);
 void describe_manifold(const ManifoldCounts& counts, const Labels& known, const Labels& labels, Run& run);
-void describe_partition(const std::string& name, const SignedGraph& graph, const Partition& partition, Run& run,
+std::uint64_t edge_count(const SignedGraph& graph);
+void describe_partition(const std::string& name, std::uint64_t edges, const Partition& partition, Run& run,
                         Report& report);
 void describe_pole_labels(const PoleLabels& labels, Run& run);
 
-/// ℓ of §3.3 at every sample: the one given, else from the noise measured at each sample or, without
-/// local_noise, the one of merged scans; empty where there is none. Sets report.grid_spacing.
-std::vector<float> grid_spacing_field(const PointCloud& cloud, const Samples& samples, std::span<const float> isolated,
-                                      Report& report, const Threads& threads);
-/// How far each sample looks for its poles; 0 where the noise is below the spacing. Empty: nowhere.
-std::vector<float> reach_of(const std::vector<float>& grid_spacing, const Options& options, double spacing);
 /// \throws Error{no_surface}
 void require_surface(const Surface& surface);
 /// The lines of all samples, also of isolated ones.
@@ -44,6 +38,10 @@ void describe_unsupported(const Surface& surface, std::span<const std::uint8_t> 
 void require_trimmed(const Surface& surface);
 /// What the options promise and the mesh is not.
 std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Options& options);
+
+/// Are the samples the input's rows moved without any rounding?
+bool is_exact_translation(const Tetrahedralization& tetrahedralization, const PointCloud& cloud,
+                          const Threads& threads);
 
 /// The surface in input coordinates with the attributes of its points and source_index. Unless the
 /// vertices were moved they are the input's rows bit for bit.

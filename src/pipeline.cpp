@@ -18,19 +18,15 @@ FirstHalf first_half(const PointCloud& cloud, const Options& options, Run& run, 
                      const Threads& threads) {
   FirstHalf half;
   Samples samples = run.stage("samples", [&] { return prepare_samples(cloud.points, threads); });
-  describe_input(cloud, samples, run, report, threads);
-  half.around = run.stage("neighbourhoods", [&] { return sample_neighbourhoods(samples.positions.raw(), threads); });
-  const auto isolated = half.isolated(options);
-  // §3.3: ℓ, of the whole cloud or of each sample; how far a sample looks for its poles
-  half.grid = run.stage("noise", [&] { return grid_spacing_field(cloud, samples, isolated, report, threads); });
-  half.reach = reach_of(half.grid, options, report.spacing);
-  describe_noise(half.grid, run);
-  const std::vector<float>&grid = half.grid, &reach = half.reach;
+  describe_input(cloud, samples, run, report);
 
-  // §3: S+ = samples and cube corners, T = Delaunay(S+), poles
-  half.t = run.stage("delaunay", [&] { return tetrahedralize(std::move(samples), threads); });
+  // §3: S+ = samples and cube corners, T = Delaunay(S+). Beside it: how close the samples stand; §3.3: ℓ, of the
+  // whole cloud or of each sample
+  half.t = triangulate_and_measure(cloud, std::move(samples), run, report, threads, half.measures);
   const Tetrahedralization& t = half.t;
-  run.count("tetrahedra", t.tetrahedra.size());
+  const auto& [around, isolated, grid, reach] = half.measures;
+  describe_noise(grid, run);
+  run.count("delaunay", "tetrahedra", t.tetrahedra.size());
   half.stars = run.stage("stars", [&] { return vertex_stars(t, threads); });
   const VertexStars& stars = half.stars;
   half.poles = run.stage("poles", [&] { return find_poles(t, stars, reach, threads); });
@@ -69,21 +65,20 @@ FirstHalf first_half(const PointCloud& cloud, const Options& options, Run& run, 
   half.first = run.stage("partition_poles", [&] {
     return partition_poles(half.graph, options.solver, threads, &half.component, run.checkpoint());
   });
-  describe_partition("poles", half.graph.graph, half.first, run, report);
+  describe_partition("poles", edge_count(half.graph.graph), half.first, run, report);
   return half;
 }
 
-void second_half(const PointCloud& cloud, const FirstHalf& half, const Known& before, const Partition& first,
-                 const SecondSolve& solve, const ValidateOptions& checks, Run& run, Result& result,
-                 const Threads& threads) {
+void second_half(const PointCloud& cloud, const FirstHalf& half, FirstHalf* spendable, const Known& before,
+                 const Partition& first, const SecondSolve& solve, const ValidateOptions& checks, Run& run,
+                 Result& result, const Threads& threads) {
   Report& report = result.report;
   const Options& options = report.options;
   const Tetrahedralization& t = half.t;
   const VertexStars& stars = half.stars;
   const Poles& poles = half.poles;
   const PoleGraph& g = half.graph;
-  const std::vector<float>&grid = half.grid, &reach = half.reach;
-  const auto isolated = half.isolated(options);
+  const auto& [around, isolated, grid, reach] = half.measures;
   const Labels &named = before.named, &known = before.labels;
 
   PoleLabels pole_labels = run.stage("label_poles", [&] {
@@ -95,13 +90,27 @@ void second_half(const PointCloud& cloud, const FirstHalf& half, const Known& be
     run.count("labels_removed",
               static_cast<double>(unlabel_questionable(half.questionable, known, pole_labels.labels)));
 
+  // What is over gives its memory back; the second partition needs most of all.
+  if (spendable) {
+    spendable->graph = {};
+    spendable->first = {};
+    spendable->component = {};
+  }
   // §3.4: the second graph H labels the rest
-  const TetrahedronGraph h = run.stage("tetrahedron_graph", [&] {
+  TetrahedronGraph h = run.stage("tetrahedron_graph", [&] {
     return tetrahedron_graph(t, poles, pole_labels.labels, options.pole_ties, reach, threads);
   });
-  const Partition second = run.stage("partition_tetrahedra", [&] { return solve(h); });
-  describe_partition("tetrahedra", h.graph, second, run, report);
+  const std::uint64_t edges = edge_count(h.graph);
+  if (spendable) {
+    spendable->poles.sphere = {};
+    spendable->stars = {}; // quickly made again
+  }
+  Partition second = run.stage("partition_tetrahedra", [&] { return solve(h); });
+  describe_partition("tetrahedra", edges, second, run, report);
   FinalLabels labels = run.stage("label_tetrahedra", [&] { return label_tetrahedra(h, second, pole_labels.labels); });
+  h = {};
+  second = {};
+  if (spendable) spendable->stars = vertex_stars(t, threads);
   if (options.centring) {
     const auto moved = run.stage(
         "centring", [&] { return centre_in_noise(t, stars, reach, isolated, pole_labels.labels, threads, labels); });
@@ -113,13 +122,13 @@ void second_half(const PointCloud& cloud, const FirstHalf& half, const Known& be
   // §3.5, §3: manifold, surface
   if (options.manifold) {
     const auto counts = run.stage("manifold", [&] {
-      return make_manifold(t, stars, poles, named, options.manifold_rule, labels, run.checkpoint());
+      return make_manifold(t, stars, poles, named, options.manifold_rule, labels, threads, run.checkpoint());
     });
     describe_manifold(counts, named, labels.labels, run);
   }
   if (options.manifold && options.close_handles) {
     const auto closed = run.stage("handles", [&] {
-      return close_handles(t, stars, poles, pole_labels.labels, named, grid, options.manifold_rule, labels,
+      return close_handles(t, stars, poles, pole_labels.labels, named, grid, options.manifold_rule, labels, threads,
                            run.checkpoint());
     });
     run.count("closed", static_cast<double>(closed));
@@ -129,7 +138,7 @@ void second_half(const PointCloud& cloud, const FirstHalf& half, const Known& be
   run.count("samples", static_cast<double>(recovered));
   if (options.manifold && !isolated.empty()) {
     const auto cut = run.stage("spikes", [&] {
-      return cut_spikes(t, stars, poles, pole_labels.labels, named, half.around, grid, options.manifold_rule, labels);
+      return cut_spikes(t, stars, poles, pole_labels.labels, named, around, grid, options.manifold_rule, labels);
     });
     run.count("cut", static_cast<double>(cut));
   }
@@ -137,13 +146,13 @@ void second_half(const PointCloud& cloud, const FirstHalf& half, const Known& be
     describe_contradictions(contradicting_lines(half.crossings, labels.labels, threads), run, report);
   Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels); });
   run.product("surface", [&] { return snapshot_of_surface(t, surface); });
-  run.stage("support", [&] { measure_support(t, labels, half.around, grid, surface, threads); });
+  run.stage("support", [&] { measure_support(t, labels, around, grid, surface, threads); });
   report.dropped_components =
       run.stage("components", [&] { return filter_components(surface, options.components, t, grid); });
   require_surface(surface);
   const bool one_sided = options.facade.has_value() || report.one_sided.has_value();
   std::vector<std::uint8_t> unsupported = run.stage(
-      "trim", [&] { return unsupported_triangles(t, half.around, rays_of(cloud, t), one_sided, surface, threads); });
+      "trim", [&] { return unsupported_triangles(t, around, rays_of(cloud, t), one_sided, surface, threads); });
   describe_unsupported(surface, unsupported, run, report);
   if (options.trim) {
     trim(std::move(unsupported), surface);
@@ -159,7 +168,16 @@ void second_half(const PointCloud& cloud, const FirstHalf& half, const Known& be
     run.stage("smoothing", [&] { smooth(surface.mesh, options.smoothing, options.smooth, threads); });
 
   result.mesh = run.stage("attributes", [&] { return finish_mesh(surface, t, cloud, options.smooth > 0); });
-  report.mesh = run.stage("validate", [&] { return validate(result.mesh, checks); });
+  report.mesh = run.stage("validate", [&] {
+    // Faces of one Delaunay tetrahedralization do not cross, unless they were moved or rounded (docs/guarantees.md).
+    const bool cannot_cross =
+        checks.self_intersections && options.smooth == 0 && is_exact_translation(t, cloud, threads);
+    ValidateOptions needed = checks;
+    needed.self_intersections = checks.self_intersections && !cannot_cross;
+    MeshSummary summary = validate(result.mesh, needed);
+    if (cannot_cross) summary.self_intersections = 0;
+    return summary;
+  });
   report.broken_guarantees = broken_guarantees(report.mesh, options);
   result.labels = std::move(labels.labels);
 }
@@ -174,10 +192,10 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   const Threads threads(options.threads);
   Run run(result.report, observer);
   FirstHalf half = first_half(cloud, options, run, result.report, threads);
-  const SecondSolve solve = [&](const TetrahedronGraph& h) {
-    return partition_tetrahedra(h, options.second_stage, options.solver, threads, run.checkpoint());
+  const SecondSolve solve = [&](TetrahedronGraph& h) {
+    return partition_tetrahedra(std::move(h.graph), options.second_stage, options.solver, threads, run.checkpoint());
   };
-  second_half(cloud, half, half.known, half.first, solve, {.threads = options.threads}, run, result, threads);
+  second_half(cloud, half, &half, half.known, half.first, solve, {.threads = options.threads}, run, result, threads);
   result.tetrahedralization = std::move(half.t);
   result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.report.peak_memory_bytes = peak_memory_bytes();

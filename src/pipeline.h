@@ -10,6 +10,7 @@
 #include <eigencrust/validate.h>
 
 #include "run.h"
+#include "sample_measures.h"
 
 namespace eigencrust {
 
@@ -20,8 +21,7 @@ struct Known {
 
 /// Up to the first partition (§3.1, §3.2).
 struct FirstHalf {
-  Neighbourhoods around;
-  std::vector<float> grid, reach; ///< per sample: ℓ, and how far it looks for its poles; may be empty
+  SampleMeasures measures;
   Tetrahedralization t;
   VertexStars stars;
   Poles poles;
@@ -31,20 +31,16 @@ struct FirstHalf {
   PoleGraph graph;
   std::vector<std::uint32_t> component; ///< of each node
   Partition first;
-
-  /// Neighbourhoods::isolated where it counts.
-  [[nodiscard]] std::span<const float> isolated(const Options& options) const {
-    return options.weights == Weights::evidence ? std::span<const float>(around.isolated) : std::span<const float>{};
-  }
 };
 FirstHalf first_half(const PointCloud& cloud, const Options& options, Run& run, Report& report, const Threads& threads);
 
-/// §3.4, or what stands for it.
-using SecondSolve = std::function<Partition(const TetrahedronGraph&)>;
+/// §3.4, or what stands for it. May take the edges.
+using SecondSolve = std::function<Partition(TetrahedronGraph&)>;
 
 /// From the labels of the poles to the finished mesh; fills result.mesh, labels and report, and point results.
-void second_half(const PointCloud& cloud, const FirstHalf& half, const Known& known, const Partition& first,
-                 const SecondSolve& solve, const ValidateOptions& checks, Run& run, Result& result,
-                 const Threads& threads);
+/// \param spendable the same first half where nobody needs it any more: what is over is freed; else null
+void second_half(const PointCloud& cloud, const FirstHalf& half, FirstHalf* spendable, const Known& known,
+                 const Partition& first, const SecondSolve& solve, const ValidateOptions& checks, Run& run,
+                 Result& result, const Threads& threads);
 
 } // namespace eigencrust

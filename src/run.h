@@ -25,11 +25,24 @@ class Run {
   auto stage(const std::string& name, Stage&& work) {
     throw_if_cancelled(observer_, name);
     observer_.stage_begins(name);
-    report_.stages.push_back({name, 0, 0, {}});
+    report_.stages.push_back({name, 0, 0, {}, false});
     const Finish finish{*this, std::chrono::steady_clock::now()};
     return work();
   }
+  /// Writes down a stage that ran beside the one before it.
+  void add(const std::string& name, double seconds) {
+    throw_if_cancelled(observer_, name);
+    observer_.stage_begins(name);
+    report_.stages.push_back({name, seconds, peak_memory_bytes(), {}, true});
+    observer_.stage_ends(name, seconds);
+  }
   void count(const std::string& what, double value) { report_.stages.back().counts.emplace_back(what, value); }
+  /// The same for an earlier stage.
+  void count(const std::string& stage, const std::string& what, double value) {
+    const auto entry = std::find_if(report_.stages.begin(), report_.stages.end(),
+                                    [&](const StageReport& s) { return s.name == stage; });
+    if (entry != report_.stages.end()) entry->counts.emplace_back(what, value);
+  }
   void warn(std::string text) { report_.warnings.push_back(std::move(text)); }
 
   /// Hands the last stage's product to an observer that wants it; made only then.

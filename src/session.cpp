@@ -127,7 +127,7 @@ struct Session::Kept {
       unlabel_questionable(half.questionable, half.known.labels, labels.labels);
     if (options.second_stage == SecondStage::harmonic) {
       const TetrahedronGraph graph = run.stage("tetrahedron_graph", [&] {
-        return tetrahedron_graph(half.t, half.poles, labels.labels, options.pole_ties, half.reach, threads);
+        return tetrahedron_graph(half.t, half.poles, labels.labels, options.pole_ties, half.measures.reach, threads);
       });
       const Partition solution = run.stage("partition_tetrahedra", [&] { return solve(graph, run); });
       second = {graph, solution, half.t.tetrahedra.size()};
@@ -162,7 +162,7 @@ struct Session::Kept {
 
   Partition solve(const TetrahedronGraph& graph, Run& run) const {
     if (!second.value.empty()) return second.adapted_to(graph);
-    return partition_tetrahedra(graph, options.second_stage, options.solver, threads, run.checkpoint());
+    return partition_tetrahedra(graph.graph, options.second_stage, options.solver, threads, run.checkpoint());
   }
 
   PointCloud cloud;
@@ -197,8 +197,8 @@ Result Session::label(std::span<const Vec3> outside_points, std::span<const Vec3
   const Partition first = run.stage("evidence", [&] { return kept_->apply(options, known); });
   const ValidateOptions checks{.self_intersections = options.smooth > 0, .threads = options.threads};
   second_half(
-      kept_->cloud, kept_->half, known, first, [&](const TetrahedronGraph& graph) { return kept_->solve(graph, run); },
-      checks, run, result, kept_->threads);
+      kept_->cloud, kept_->half, nullptr, known, first,
+      [&](const TetrahedronGraph& graph) { return kept_->solve(graph, run); }, checks, run, result, kept_->threads);
   result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.report.peak_memory_bytes = peak_memory_bytes();
   return result;

@@ -43,8 +43,7 @@ MergedTriangles merged_triangles(const TriangleMesh& mesh, bool merge) {
 /// exactly two triangles; what then hangs together is a manifold piece with boundary, whose corners
 /// around one vertex form one fan.
 struct Connectivity {
-  explicit Connectivity(std::size_t triangles)
-      : components(triangles), fans(3 * triangles), rims(3 * triangles), sheets(2 * triangles) {}
+  explicit Connectivity(std::size_t triangles) : components(triangles), fans(3 * triangles), sheets(2 * triangles) {}
 
   DisjointSets components; ///< of triangles, joined along all edges
   DisjointSets fans;       ///< of corners, joined along edges with two triangles
@@ -53,26 +52,37 @@ struct Connectivity {
   std::vector<Side> cut;   ///< sides of edges that do not have exactly two triangles
 };
 
-void join_two(Connectivity& c, const Side& a, const Side& b) {
-  c.fans.unite(a.corner_at_low(), b.corner_at_low());
-  c.fans.unite(a.corner_at_high(), b.corner_at_high());
+void join_fans(DisjointSets& fans, const Side& a, const Side& b) {
+  fans.unite(a.corner_at_low(), b.corner_at_low());
+  fans.unite(a.corner_at_high(), b.corner_at_high());
+}
+
+void join_sheets(DisjointSets& sheets, const Side& a, const Side& b) {
   const std::uint32_t flip = a.forward == b.forward ? 1 : 0;
-  c.sheets.unite(2 * a.triangle(), 2 * b.triangle() + flip);
-  c.sheets.unite(2 * a.triangle() + 1, 2 * b.triangle() + 1 - flip);
+  sheets.unite(2 * a.triangle(), 2 * b.triangle() + flip);
+  sheets.unite(2 * a.triangle() + 1, 2 * b.triangle() + 1 - flip);
 }
 
 /// Fills the counts of edges of the summary on the way.
-Connectivity connect(std::span<const Side> sides, std::size_t triangles, MeshSummary& summary) {
+Connectivity connect(std::span<const Side> sides, std::size_t triangles, MeshSummary& summary, const Threads& threads) {
   Connectivity c(triangles);
+  // The sets know nothing of each other: each has a thread of its own.
+  threads.run(3, [&](std::size_t set) {
+    for_each_edge(sides, [&](std::span<const Side> edge) {
+      if (set == 0)
+        for (const Side& s : edge) c.components.unite(edge[0].triangle(), s.triangle());
+      else if (edge.size() == 2)
+        set == 1 ? join_fans(c.fans, edge[0], edge[1]) : join_sheets(c.sheets, edge[0], edge[1]);
+    });
+  });
   for_each_edge(sides, [&](std::span<const Side> edge) {
-    for (const Side& s : edge) c.components.unite(edge[0].triangle(), s.triangle());
     const auto forward = std::count_if(edge.begin(), edge.end(), [](const Side& s) { return s.forward; });
     if (edge.size() > 1 && 2 * static_cast<std::size_t>(forward) != edge.size()) ++summary.inconsistent_edges;
-    if (edge.size() == 2) return join_two(c, edge[0], edge[1]);
+    if (edge.size() == 2) return;
     ++(edge.size() == 1 ? summary.boundary_edges : summary.nonmanifold_edges);
     c.cut.insert(c.cut.end(), edge.begin(), edge.end());
   });
-  c.rims = c.fans;
+  if (!c.cut.empty()) c.rims = c.fans;
   for (const Side& s : c.cut) c.rims.unite(s.start(), s.end());
   return c;
 }
@@ -140,8 +150,8 @@ void tally_loops(Connectivity& c, std::span<const std::uint32_t> component, std:
 }
 
 std::vector<Tally> tally_components(std::span<const Triangle> triangles, std::size_t vertices,
-                                    std::span<const Side> sides, MeshSummary& summary) {
-  Connectivity c = connect(sides, triangles.size(), summary);
+                                    std::span<const Side> sides, MeshSummary& summary, const Threads& threads) {
+  Connectivity c = connect(sides, triangles.size(), summary, threads);
   const auto [component, count] = number_components(c.components, triangles.size());
   std::vector<Tally> tallies(count);
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
@@ -165,9 +175,10 @@ std::vector<Tally> tally_components(std::span<const Triangle> triangles, std::si
   return tallies;
 }
 
-void summarize_topology(std::span<const Triangle> triangles, std::size_t vertices, MeshSummary& summary) {
-  const std::vector<Side> sides = sorted_sides(triangles, vertices);
-  const std::vector<Tally> tallies = tally_components(triangles, vertices, sides, summary);
+void summarize_topology(std::span<const Triangle> triangles, std::size_t vertices, MeshSummary& summary,
+                        const Threads& threads) {
+  const std::vector<Side> sides = sorted_sides(triangles, vertices, threads);
+  const std::vector<Tally> tallies = tally_components(triangles, vertices, sides, summary, threads);
   summary.components = tallies.size();
   summary.component_list.reserve(tallies.size());
   for (const Tally& t : tallies) {
@@ -232,7 +243,7 @@ MeshSummary validate(const TriangleMesh& mesh, const ValidateOptions& options) {
   const MergedTriangles merged = merged_triangles(mesh, options.merge_equal_vertices);
   summary.triangles = merged.all.size();
   summary.unreferenced_vertices = count_unreferenced(merged);
-  summarize_topology(merged.proper, mesh.vertices.size(), summary);
+  summarize_topology(merged.proper, mesh.vertices.size(), summary, threads);
 
   for (const Triangle& t : merged.proper)
     for (const std::uint32_t v : t) summary.bounds.add(mesh.vertices[v]);
@@ -277,7 +288,7 @@ TriangleMesh merge_equal_vertices(const TriangleMesh& mesh) {
 std::vector<std::uint32_t> triangle_components(const TriangleMesh& mesh) {
   require_valid_indices(mesh, "triangle_components");
   DisjointSets sets(mesh.triangles.size());
-  const std::vector<Side> sides = sorted_sides(mesh.triangles, mesh.vertices.size());
+  const std::vector<Side> sides = sorted_sides(mesh.triangles, mesh.vertices.size(), Threads(1));
   for_each_edge(sides, [&](std::span<const Side> edge) {
     for (const Side& s : edge) sets.unite(edge[0].triangle(), s.triangle());
   });

@@ -50,6 +50,7 @@ void time_whole(const fs::path& cloud, const SpeedRunnerOptions& options, WholeT
   times.peak_memory_bytes = std::max(times.peak_memory_bytes, child.peak_memory_bytes);
   double in_stages = 0;
   for (const auto& stage : report.at("stages")) {
+    if (stage.value("beside", false)) continue; // its time is part of another stage's
     const double seconds = stage.at("seconds").get<double>();
     add_stage(times, stage.at("name").get<std::string>(), seconds, run);
     in_stages += seconds;

@@ -26,6 +26,7 @@ struct StageReport {
   double seconds = 0;
   std::uint64_t peak_memory_bytes = 0; ///< of the process up to the end of the stage
   std::vector<std::pair<std::string, double>> counts;
+  bool beside = false; ///< ran beside an earlier stage, on other threads: its seconds are part of that one's
 };
 
 struct PartitionReport {

@@ -40,6 +40,7 @@ double resolve_grid_spacing(const GridSpacing& option, const Samples& samples, s
 struct Neighbourhoods {
   std::vector<float> spacing; ///< distance to the third nearest other sample
   double typical = 0;         ///< median of those
+  double nearest = 0;         ///< median distance to the nearest other sample: the spacing of the report
   /// Distance to the 20th nearest sample where a sample is isolated: its spacing is 2.5 times the typical one
   /// and its neighbourhood is not flat. 0 for all others.
   std::vector<float> isolated;
@@ -52,8 +53,10 @@ IndexedArray<SampleIndex, float> noise_scale(const Samples& samples, std::span<c
                                              const Threads& threads);
 
 /// §3: Delaunay tetrahedra of the samples and the corners of a cube whose half side is 10 diagonals of
-/// their bounding box. \throws Error{input} when all samples are coplanar or collinear
-Tetrahedralization tetrahedralize(Samples samples, const Threads& threads);
+/// their bounding box. Points are inserted one after the other, so one thread does it; `beside` (may be empty)
+/// is called meanwhile on another, if there is one.
+/// \throws Error{input} when all samples are coplanar or collinear
+Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const std::function<void()>& beside = {});
 VertexStars vertex_stars(const Tetrahedralization& tetrahedralization, const Threads& threads);
 
 /// §3: the pole pair of every sample, the farthest circumcentres on either side. With `reach` (may be empty;
@@ -175,7 +178,7 @@ TetrahedronGraph tetrahedron_graph(const Tetrahedralization& tetrahedralization,
                                    const Threads& threads);
 
 /// §3.4: `eigenvector` as in the paper; `harmonic`: outside fixed at +1, inside at -1.
-Partition partition_tetrahedra(const TetrahedronGraph& graph, SecondStage method, const SolverOptions& options,
+Partition partition_tetrahedra(SignedGraph graph, SecondStage method, const SolverOptions& options,
                                const Threads& threads, const Checkpoint& checkpoint = {});
 
 /// Every tetrahedron labelled, with the stage-two component behind each label (+1 and -1 times the
@@ -203,7 +206,7 @@ struct ManifoldCounts {
   std::uint64_t relabelled = 0;          ///< tetrahedra
 };
 ManifoldCounts make_manifold(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
-                             const Labels& known, ManifoldRule rule, FinalLabels& labels,
+                             const Labels& known, ManifoldRule rule, FinalLabels& labels, const Threads& threads,
                              const Checkpoint& checkpoint = {});
 
 /// Closes handles that no pole vouches for: along short loops of the surface the tetrahedra that the first stage
@@ -211,7 +214,8 @@ ManifoldCounts make_manifold(const Tetrahedralization& tetrahedralization, const
 /// cutting, by Σ |value|. Expects a manifold (not in the paper). \return how many
 std::uint64_t close_handles(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
                             const Labels& first, const Labels& known, std::span<const float> grid_spacing,
-                            ManifoldRule rule, FinalLabels& labels, const Checkpoint& checkpoint = {});
+                            ManifoldRule rule, FinalLabels& labels, const Threads& threads,
+                            const Checkpoint& checkpoint = {});
 
 /// Takes samples into the surface that it passes by closely: the tetrahedron between such a sample and a
 /// surface triangle changes sides, which neither opens nor joins anything. Only when such samples are at

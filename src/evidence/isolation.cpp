@@ -20,8 +20,11 @@ constexpr double isolation = 2.5;
 constexpr double flat_ratio = 0.4;
 constexpr std::size_t neighbourhood = 20;
 
-std::vector<float> third_nearest(const PointTree& tree, std::span<const Vec3> positions, const Threads& threads) {
+/// Distances to the third nearest other sample; those to the nearest go to `nearest`.
+std::vector<float> third_nearest(const PointTree& tree, std::span<const Vec3> positions, std::vector<double>& nearest,
+                                 const Threads& threads) {
   std::vector<float> third(positions.size());
+  nearest.resize(positions.size());
   for_each_index(
       threads, positions.size(),
       [&](std::size_t i) {
@@ -29,9 +32,17 @@ std::vector<float> third_nearest(const PointTree& tree, std::span<const Vec3> po
         std::array<double, 4> square{};
         const std::size_t found = tree.nearest(positions[i], 4, index.data(), square.data());
         third[i] = static_cast<float>(std::sqrt(square[found - 1]));
+        nearest[i] = std::sqrt(square[1]);
       },
       2048);
   return third;
+}
+
+template <class T>
+T median(std::vector<T> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 bool is_flat(std::span<const Vec3> positions, std::span<const std::uint32_t> neighbours, const Vec3& origin) {
@@ -55,11 +66,10 @@ bool is_flat(std::span<const Vec3> positions, std::span<const std::uint32_t> nei
 Neighbourhoods sample_neighbourhoods(std::span<const Vec3> positions, const Threads& threads) {
   const PointTree tree(positions);
   Neighbourhoods result;
-  result.spacing = third_nearest(tree, positions, threads);
-  std::vector<float> sorted = result.spacing;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  result.typical = static_cast<double>(*middle);
+  std::vector<double> nearest;
+  result.spacing = third_nearest(tree, positions, nearest, threads);
+  result.nearest = median(std::move(nearest));
+  result.typical = static_cast<double>(median(result.spacing));
   const double limit = isolation * result.typical;
   result.isolated.assign(positions.size(), 0.0f);
   for_each_index(

@@ -13,10 +13,10 @@ struct Edge {
   std::uint32_t left, right; ///< triangles
 };
 
-std::vector<Edge> edges_of(std::span<const Triangle> triangles, std::size_t vertices) {
+std::vector<Edge> edges_of(std::span<const Triangle> triangles, std::size_t vertices, const Threads& threads) {
   std::vector<Edge> edges;
   edges.reserve(triangles.size() * 3 / 2);
-  const std::vector<Side> sides = sorted_sides(triangles, vertices);
+  const std::vector<Side> sides = sorted_sides(triangles, vertices, threads);
   for_each_edge(sides, [&](std::span<const Side> edge) {
     if (edge.size() == 2) edges.push_back({edge[0].low, edge[0].high, edge[0].triangle(), edge[1].triangle()});
   });
@@ -26,6 +26,7 @@ std::vector<Edge> edges_of(std::span<const Triangle> triangles, std::size_t vert
 /// Breadth-first trees, one for each component, with the depth of every vertex.
 struct Forest {
   std::vector<std::uint32_t> parent, depth;
+  std::uint32_t trees = 0, isolated = 0; ///< isolated: trees of one vertex
 };
 
 Forest breadth_first(const std::vector<Edge>& edges, std::size_t vertices) {
@@ -40,12 +41,14 @@ Forest breadth_first(const std::vector<Edge>& edges, std::size_t vertices) {
     neighbour[place[e.low]++] = e.high;
     neighbour[place[e.high]++] = e.low;
   }
-  Forest forest{std::vector<std::uint32_t>(vertices, none), std::vector<std::uint32_t>(vertices, none)};
+  Forest forest{std::vector<std::uint32_t>(vertices, none), std::vector<std::uint32_t>(vertices, none), 0, 0};
   std::vector<std::uint32_t> queue;
   queue.reserve(vertices);
   for (std::uint32_t root = 0; root < vertices; ++root) {
     if (forest.depth[root] != none) continue;
     forest.depth[root] = 0;
+    ++forest.trees;
+    forest.isolated += begin[root] == begin[root + 1];
     queue.assign(1, root);
     for (std::size_t i = 0; i < queue.size(); ++i)
       for (std::uint32_t k = begin[queue[i]]; k < begin[queue[i] + 1]; ++k) {
@@ -81,9 +84,16 @@ std::vector<std::uint32_t> loop_through(const Forest& forest, const Edge& edge) 
 
 } // namespace
 
-std::vector<std::vector<std::uint32_t>> handle_loops(std::span<const Triangle> triangles, std::size_t vertices) {
-  const std::vector<Edge> edges = edges_of(triangles, vertices);
+std::vector<std::vector<std::uint32_t>> handle_loops(std::span<const Triangle> triangles, std::size_t vertices,
+                                                     const Threads& threads) {
+  const std::vector<Edge> edges = edges_of(triangles, vertices, threads);
   const Forest forest = breadth_first(edges, vertices);
+  // Euler's formula for closed surfaces: nothing to look for where every piece is a sphere.
+  const auto isolated = static_cast<std::int64_t>(forest.isolated);
+  const std::int64_t euler =
+      static_cast<std::int64_t>(vertices + triangles.size()) - isolated - static_cast<std::int64_t>(edges.size());
+  if (edges.size() * 2 == triangles.size() * 3 && euler == 2 * (static_cast<std::int64_t>(forest.trees) - isolated))
+    return {};
   // The cotree takes the edges with the longest loops, so that the shortest are left.
   struct Candidate {
     std::uint32_t length, edge;

@@ -15,6 +15,7 @@ namespace eigencrust {
 /// cotree, Eppstein 2003; the shortest are preferred as in Erickson and Whittlesey 2005). Each is a list
 /// of vertices. Shortest first; none for spheres.
 /// \param triangles closed and orientable; each edge in two triangles
-std::vector<std::vector<std::uint32_t>> handle_loops(std::span<const Triangle> triangles, std::size_t vertices);
+std::vector<std::vector<std::uint32_t>> handle_loops(std::span<const Triangle> triangles, std::size_t vertices,
+                                                     const Threads& threads);
 
 } // namespace eigencrust

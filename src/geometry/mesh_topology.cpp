@@ -9,7 +9,7 @@
 
 namespace eigencrust {
 
-std::vector<Side> sorted_sides(std::span<const Triangle> triangles, std::size_t vertices) {
+std::vector<Side> sorted_sides(std::span<const Triangle> triangles, std::size_t vertices, const Threads& threads) {
   // Counting sort by the lower vertex, then each short list by itself: no search tree, no hashing.
   std::vector<std::size_t> begin(vertices + 1, 0);
   const auto for_each_side = [&](auto&& visit) {
@@ -25,11 +25,12 @@ std::vector<Side> sorted_sides(std::span<const Triangle> triangles, std::size_t 
   std::vector<Side> sides(begin.back());
   std::vector<std::size_t> place(begin.begin(), begin.end() - 1);
   for_each_side([&](const Side& s) { sides[place[s.low]++] = s; });
-  for (std::size_t v = 0; v < vertices; ++v)
+  for_each_index(threads, vertices, [&](std::size_t v) {
     std::sort(sides.begin() + static_cast<std::ptrdiff_t>(begin[v]),
               sides.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]), [](const Side& a, const Side& b) {
                 return a.high < b.high || (a.high == b.high && a.number < b.number);
               });
+  });
   return sides;
 }
 

@@ -11,6 +11,8 @@
 
 #include <eigencrust/types.h>
 
+#include "parallel/threads.h"
+
 namespace eigencrust {
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -19,6 +21,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// does not depend on the order of the unions.
 class DisjointSets {
  public:
+  DisjointSets() = default;
   explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
 
   std::uint32_t find(std::uint32_t i) {
@@ -55,7 +58,7 @@ struct Side {
 /// Sides of all triangles by (low, high, number), so that the sides of an edge stand together. Sides
 /// whose two vertices are the same are left out.
 /// \param vertices one more than the largest vertex number
-std::vector<Side> sorted_sides(std::span<const Triangle> triangles, std::size_t vertices);
+std::vector<Side> sorted_sides(std::span<const Triangle> triangles, std::size_t vertices, const Threads& threads);
 
 /// visit(sides of one edge) for each edge in order.
 template <class Visit>

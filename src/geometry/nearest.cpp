@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/nearest.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <nanoflann.hpp>
+#include <tuple>
 
 namespace eigencrust {
 namespace {
@@ -26,6 +29,38 @@ using Tree =
 
 } // namespace
 
+namespace {
+
+/// The k nearest so far in a heap: nanoflann's own result set shifts on average half of them at each find,
+/// which is quick for a handful only.
+class NearestHeap {
+ public:
+  NearestHeap(std::size_t k, std::vector<std::pair<double, std::uint32_t>>& heap) : k_(k), heap_(heap) {
+    heap_.clear();
+  }
+  [[nodiscard]] std::size_t size() const { return heap_.size(); }
+  [[nodiscard]] bool full() const { return heap_.size() == k_; }
+  [[nodiscard]] double worstDist() const { return full() ? heap_.front().first : std::numeric_limits<double>::max(); }
+  bool addPoint(double square, std::uint32_t index) {
+    if (full()) {
+      if (!(std::pair(square, index) < heap_.front())) return true;
+      std::pop_heap(heap_.begin(), heap_.end());
+      heap_.pop_back();
+    }
+    heap_.emplace_back(square, index);
+    std::push_heap(heap_.begin(), heap_.end());
+    return true;
+  }
+
+ private:
+  std::size_t k_;
+  std::vector<std::pair<double, std::uint32_t>>& heap_;
+};
+
+constexpr std::size_t a_handful = 32;
+
+} // namespace
+
 struct PointTree::Impl {
   Points points;
   Tree tree;
@@ -41,7 +76,14 @@ PointTree::PointTree(PointTree&&) noexcept = default;
 
 std::size_t PointTree::nearest(const Vec3& query, std::size_t k, std::uint32_t* index, double* squared_distance) const {
   const std::array<double, 3> q{query.x, query.y, query.z};
-  return impl_->tree.knnSearch(q.data(), k, index, squared_distance);
+  if (k <= a_handful) return impl_->tree.knnSearch(q.data(), k, index, squared_distance);
+  std::vector<std::pair<double, std::uint32_t>> heap;
+  heap.reserve(k);
+  NearestHeap found(k, heap);
+  impl_->tree.findNeighbors(found, q.data(), nanoflann::SearchParams());
+  std::sort_heap(heap.begin(), heap.end());
+  for (std::size_t i = 0; i < heap.size(); ++i) std::tie(squared_distance[i], index[i]) = heap[i];
+  return heap.size();
 }
 
 std::vector<std::uint32_t> PointTree::within(const Vec3& query, double radius) const {

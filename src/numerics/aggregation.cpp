@@ -90,48 +90,82 @@ struct RowBlock {
   std::vector<float> value;
 };
 
-struct Entry {
-  std::uint32_t column, order;
-  double value;
-  // Equal columns are added in the order of the members.
-  friend bool operator<(const Entry& a, const Entry& b) {
-    return a.column != b.column ? a.column < b.column : a.order < b.order;
+/// Sums of one row by column, in a small table that is emptied after each row. Sums are formed in the order in
+/// which they are given.
+class RowSums {
+ public:
+  RowSums() : slot_(512, none) {}
+
+  void add(std::uint32_t column, double value) {
+    std::size_t at = (column * 2654435769u) & (slot_.size() - 1);
+    while (slot_[at] != none && entry_[slot_[at]].column != column) at = (at + 1) & (slot_.size() - 1);
+    if (slot_[at] == none) {
+      slot_[at] = static_cast<std::uint32_t>(entry_.size());
+      entry_.push_back({column, value, std::fabs(value)});
+      place_.push_back(static_cast<std::uint32_t>(at));
+      if (2 * entry_.size() > slot_.size()) grow();
+      return;
+    }
+    Entry& entry = entry_[slot_[at]];
+    entry.sum += value;
+    entry.size += std::fabs(value);
   }
+
+  /// Appends what does not cancel, columns increasing, and empties the table.
+  void move_to(RowBlock& rows) {
+    std::sort(entry_.begin(), entry_.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
+    for (const Entry& e : entry_) {
+      if (std::fabs(e.sum) <= 1e-7 * e.size) continue;
+      rows.column.push_back(e.column);
+      rows.value.push_back(static_cast<float>(e.sum));
+    }
+    for (const std::uint32_t at : place_) slot_[at] = none;
+    entry_.clear();
+    place_.clear();
+  }
+
+ private:
+  struct Entry {
+    std::uint32_t column;
+    double sum, size;
+  };
+
+  void grow() {
+    slot_.assign(2 * slot_.size(), none);
+    for (std::uint32_t k = 0; k < entry_.size(); ++k) {
+      std::size_t at = (entry_[k].column * 2654435769u) & (slot_.size() - 1);
+      while (slot_[at] != none) at = (at + 1) & (slot_.size() - 1);
+      slot_[at] = k;
+      place_[k] = static_cast<std::uint32_t>(at);
+    }
+  }
+
+  std::vector<std::uint32_t> slot_; ///< entry numbers; a power of two
+  std::vector<Entry> entry_;
+  std::vector<std::uint32_t> place_; ///< slots that are taken
 };
 
 /// Rows of one block of aggregates; lengths go to row_length.
 void galerkin_block(const BorderedMatrix& m, const Aggregation& a, std::size_t first, std::size_t last, RowBlock& rows,
                     std::vector<std::uint64_t>& row_length, std::vector<double>& diagonal) {
-  std::vector<Entry> entries;
+  RowSums sums;
   for (std::size_t g = first; g < last; ++g) {
-    entries.clear();
     double self = 0;
     for (std::uint32_t k = a.begin[g]; k < a.begin[g + 1]; ++k) {
       const std::uint32_t i = a.member[k];
       self += m.diagonal[i];
       for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1]; ++e) {
         const std::uint32_t j = m.column[e];
-        const double v = static_cast<double>(m.value[e]) * a.sign[i] * a.sign[j];
+        const double v = static_cast<double>(a.sign[i] == a.sign[j] ? m.value[e] : -m.value[e]);
         if (a.aggregate[j] == g)
           self += v;
         else
-          entries.push_back({a.aggregate[j], static_cast<std::uint32_t>(entries.size()), v});
+          sums.add(a.aggregate[j], v);
       }
     }
     diagonal[g] = self;
-    std::sort(entries.begin(), entries.end());
     const std::size_t before = rows.column.size();
-    for (std::size_t k = 0; k < entries.size();) {
-      const std::uint32_t c = entries[k].column;
-      double sum = 0, size = 0;
-      for (; k < entries.size() && entries[k].column == c; ++k) {
-        sum += entries[k].value;
-        size += std::fabs(entries[k].value);
-      }
-      if (std::fabs(sum) <= 1e-7 * size) continue;
-      rows.column.push_back(c);
-      rows.value.push_back(static_cast<float>(sum));
-    }
+    sums.move_to(rows);
     row_length[g + 1] = rows.column.size() - before;
   }
 }

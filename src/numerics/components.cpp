@@ -66,32 +66,32 @@ Subgraph extract_component(const SignedGraph& graph, std::uint32_t component, co
   return sub;
 }
 
-BorderedMatrix signed_laplacian(const SignedGraph& graph, const Threads& threads) {
+BorderedMatrix signed_laplacian(SignedGraph graph, const Threads& threads) {
   const std::uint32_t n = graph.node_count();
   const std::size_t k = graph.supernodes.size();
   BorderedMatrix m;
-  m.row_begin = graph.row_begin;
-  m.column = graph.column;
-  m.value.resize(graph.weight.size());
+  m.row_begin = std::move(graph.row_begin);
+  m.column = std::move(graph.column);
+  m.value = std::move(graph.weight);
   m.diagonal.resize(n);
   for_each_index(threads, n, [&](std::size_t i) {
     double sum = 0;
-    for (std::uint64_t e = graph.row_begin[i]; e < graph.row_begin[i + 1]; ++e) {
-      m.value[e] = -graph.weight[e];
-      sum += std::fabs(static_cast<double>(graph.weight[e]));
+    for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1]; ++e) {
+      sum += std::fabs(static_cast<double>(m.value[e]));
+      m.value[e] = -m.value[e];
     }
     for (const SignedGraph::Supernode& super : graph.supernodes) sum += std::fabs(static_cast<double>(super.weight[i]));
     m.diagonal[i] = sum;
   });
   m.corner.assign(k, std::vector<double>(k, 0.0));
   for (std::size_t s = 0; s < k; ++s) {
-    std::vector<float> column(n);
-    for (std::uint32_t i = 0; i < n; ++i) column[i] = -graph.supernodes[s].weight[i];
+    std::vector<float> column = std::move(graph.supernodes[s].weight);
     m.corner[s][s] = sum_blocks<double>(threads, n, [&](std::size_t begin, std::size_t end) {
       double part = 0;
       for (std::size_t i = begin; i < end; ++i) part += std::fabs(static_cast<double>(column[i]));
       return part;
     });
+    for (float& w : column) w = -w;
     m.border.push_back(std::move(column));
     for (std::size_t u = 0; u < k; ++u)
       if (u != s) {

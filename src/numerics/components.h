@@ -26,6 +26,6 @@ struct Subgraph {
 Subgraph extract_component(const SignedGraph& graph, std::uint32_t component, const std::vector<std::uint32_t>& nodes);
 
 /// L of §3.2: L_ij = -w_ij, L_ii = Σ |L_ij|; supernodes form the border.
-BorderedMatrix signed_laplacian(const SignedGraph& graph, const Threads& threads);
+BorderedMatrix signed_laplacian(SignedGraph graph, const Threads& threads);
 
 } // namespace eigencrust

@@ -16,8 +16,11 @@ namespace {
 
 // On coarse levels a step costs next to nothing; signs settle long before.
 constexpr std::uint32_t coarse_steps = 12;
+constexpr double coarse_stable_share = 1e-3;
 // A value that would be 0 after this many more steps like the last is not settled (docs/decisions/0019).
 constexpr double steps_ahead = 4;
+// More of such values, and the iteration goes on.
+constexpr double most_unsettled = 1e-3;
 // A consistent graph has eigenvalue 0 up to the rounding of float weights.
 constexpr double consistent_eigenvalue = 1e-10;
 
@@ -214,6 +217,7 @@ IterationResult smallest_eigenvector(const SignedMultigrid& hierarchy, const Ite
       smallest_eigenvector_dense(hierarchy.levels()[coarsest].matrix, hierarchy.levels()[coarsest].mass, x);
   IterationControl coarse_control = control;
   coarse_control.stop_on_stable_signs = true;
+  coarse_control.stable_share = std::max(control.stable_share, coarse_stable_share);
   for (std::size_t level = coarsest; level-- > 0;) {
     Vector start;
     hierarchy.prolongate(level, x, start, threads);
@@ -221,18 +225,23 @@ IterationResult smallest_eigenvector(const SignedMultigrid& hierarchy, const Ite
     const IterationControl& rule = level == 0 ? control : coarse_control;
     const std::uint32_t limit = level == 0 ? control.max_steps : coarse_steps;
     std::vector<std::uint32_t> changes;
+    bool settled = false;
     while (changes.size() < limit) {
       if (control.checkpoint) control.checkpoint(level == 0 ? static_cast<double>(changes.size()) / limit : 0.0);
       changes.push_back(iteration.step());
-      if (iteration.residual_norm() <= control.tolerance ||
-          signs_are_stable(changes, iteration.residual_norm(), iteration.size(), rule))
-        break;
+      if (iteration.residual_norm() <= control.tolerance) break;
+      if (!signs_are_stable(changes, iteration.residual_norm(), iteration.size(), rule)) continue;
+      if (level > 0) break;
+      // A whole part of the object may be about to change sides without a single sign changing now.
+      const std::vector<std::uint8_t> open = iteration.unsettled(steps_ahead);
+      settled = static_cast<double>(std::count(open.begin(), open.end(), 1)) <=
+                most_unsettled * static_cast<double>(iteration.size());
+      if (settled) break;
     }
     if (level == 0) {
       result.status = iteration.residual_norm() <= control.tolerance ? SolverStatus::converged
-                      : signs_are_stable(changes, iteration.residual_norm(), iteration.size(), control)
-                          ? SolverStatus::signs_stable
-                          : SolverStatus::not_converged;
+                      : settled                                      ? SolverStatus::signs_stable
+                                                                     : SolverStatus::not_converged;
       result.residual = iteration.residual_norm();
       result.eigenvalue = iteration.eigenvalue();
       result.steps = static_cast<std::uint32_t>(changes.size());
@@ -249,15 +258,16 @@ IterationResult smallest_eigenvector(const SignedMultigrid& hierarchy, const Ite
   return result;
 }
 
-IterationResult conjugate_gradients(const SignedMultigrid& hierarchy, const Vector& b, const IterationControl& control,
+IterationResult conjugate_gradients(const SignedMultigrid& hierarchy, Vector b, const IterationControl& control,
                                     const Threads& threads) {
   const BorderedMatrix& m = hierarchy.finest().matrix;
   SignedMultigrid::Workspace workspace = hierarchy.workspace();
   IterationResult result;
-  Vector r = b, p(b.size(), 0), mp;
-  FloatVector single(b.begin(), b.end()), z;
-  result.x.assign(b.size(), 0);
   const double size = std::sqrt(inner_product(b, b, threads));
+  const std::size_t n = b.size();
+  Vector r = std::move(b), p(n, 0), mp;
+  FloatVector single(r.begin(), r.end()), z;
+  result.x.assign(n, 0);
   if (size == 0) {
     result.status = SolverStatus::converged;
     return result;
@@ -267,7 +277,7 @@ IterationResult conjugate_gradients(const SignedMultigrid& hierarchy, const Vect
     result.residual = std::sqrt(square) / size;
     if (result.residual <= control.tolerance)
       result.status = SolverStatus::converged;
-    else if (signs_are_stable(result.sign_changes, result.residual, b.size(), control))
+    else if (signs_are_stable(result.sign_changes, result.residual, n, control))
       result.status = SolverStatus::signs_stable;
     if (result.status != SolverStatus::not_converged || result.steps == control.max_steps) break;
     if (control.checkpoint) control.checkpoint(static_cast<double>(result.steps) / control.max_steps);

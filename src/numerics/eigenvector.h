@@ -51,7 +51,7 @@ IterationResult smallest_eigenvector_lanczos(const BorderedMatrix& matrix, const
 
 /// Solves M x = b for a positive definite M by conjugate gradients, preconditioned with one cycle.
 /// `eigenvalue` of the result is 0; `residual` is |b - Mx| / |b|.
-IterationResult conjugate_gradients(const SignedMultigrid& hierarchy, const Vector& b, const IterationControl& control,
+IterationResult conjugate_gradients(const SignedMultigrid& hierarchy, Vector b, const IterationControl& control,
                                     const Threads& threads);
 
 } // namespace eigencrust

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <memory>
 
 #include <eigencrust/error.h>
 #include <eigencrust/stages.h>
@@ -72,61 +73,70 @@ std::array<int, 4> canonical_order(const std::array<std::uint32_t, 4>& v) {
   return *std::min_element(even.begin(), even.end(), smaller);
 }
 
-struct RawCell {
-  std::array<std::uint32_t, 4> vertex; // canonical
-  std::uint32_t number;                // in the engine's order
-  friend bool operator<(const RawCell& a, const RawCell& b) { return a.vertex < b.vertex; }
-};
-
-/// Sorts by the vertices: by the first with counting, then within each first vertex.
-std::vector<RawCell> sort_cells(std::vector<RawCell> cells, std::size_t vertices, const Threads& threads) {
-  std::vector<std::uint32_t> begin(vertices + 1, 0);
-  for (const RawCell& c : cells) ++begin[c.vertex[0] + 1];
-  for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
-  std::vector<RawCell> sorted(cells.size());
-  std::vector<std::uint32_t> cursor(begin.begin(), begin.end() - 1);
-  for (const RawCell& c : cells) sorted[cursor[c.vertex[0]]++] = c;
-  for_each_index(threads, vertices,
-                 [&](std::size_t v) { std::sort(sorted.begin() + begin[v], sorted.begin() + begin[v + 1]); });
-  return sorted;
-}
-
-void copy_cells(Delaunay& delaunay, Tetrahedralization& result, const Threads& threads) {
-  std::vector<RawCell> cells;
-  for (auto c = delaunay.all_cells_begin(); c != delaunay.all_cells_end(); ++c) c->info() = none;
-  for (auto c = delaunay.finite_cells_begin(); c != delaunay.finite_cells_end(); ++c) {
-    std::array<std::uint32_t, 4> v{};
-    for (int k = 0; k < 4; ++k) v[static_cast<std::size_t>(k)] = c->vertex(k)->info();
-    const std::array<int, 4> order = canonical_order(v);
-    RawCell cell{{}, static_cast<std::uint32_t>(cells.size())};
-    for (std::size_t k = 0; k < 4; ++k) cell.vertex[k] = v[static_cast<std::size_t>(order[k])];
-    c->info() = cell.number;
-    cells.push_back(cell);
-    if (cells.size() >= none)
+/// Cells in the engine's order, in canonical form; cells beyond the hull have no number.
+void copy_cells(Delaunay& delaunay, Tetrahedralization& result) {
+  auto& tetrahedra = result.tetrahedra.raw();
+  auto& neighbours = result.neighbours.raw();
+  std::uint32_t count = 0;
+  for (auto c = delaunay.all_cells_begin(); c != delaunay.all_cells_end(); ++c) {
+    if (delaunay.is_infinite(c)) {
+      c->info() = none;
+      continue;
+    }
+    if (count >= none - 1)
       throw Error(ErrorKind::memory, "delaunay", "more than 4 billion tetrahedra", "split the cloud");
+    c->info() = count++;
   }
-  cells = sort_cells(std::move(cells), result.positions.size(), threads);
-  std::vector<std::uint32_t> rank(cells.size());
-  for (std::uint32_t t = 0; t < cells.size(); ++t) rank[cells[t].number] = t;
-  result.tetrahedra.raw().resize(cells.size());
-  for (std::uint32_t t = 0; t < cells.size(); ++t)
-    for (std::size_t k = 0; k < 4; ++k) result.tetrahedra.raw()[t][k] = SampleIndex{cells[t].vertex[k]};
-  cells = {};
-  result.neighbours.raw().resize(rank.size());
+  tetrahedra.resize(count);
+  neighbours.resize(count);
   for (auto c = delaunay.finite_cells_begin(); c != delaunay.finite_cells_end(); ++c) {
     std::array<std::uint32_t, 4> v{};
     for (int k = 0; k < 4; ++k) v[static_cast<std::size_t>(k)] = c->vertex(k)->info();
     const std::array<int, 4> order = canonical_order(v);
     for (std::size_t k = 0; k < 4; ++k) {
-      const std::uint32_t n = c->neighbor(order[k])->info();
-      result.neighbours.raw()[rank[c->info()]][k] = TetrahedronIndex{n == none ? none : rank[n]};
+      tetrahedra[c->info()][k] = SampleIndex{v[static_cast<std::size_t>(order[k])]};
+      neighbours[c->info()][k] = TetrahedronIndex{c->neighbor(order[k])->info()};
     }
   }
 }
 
+/// Tetrahedra by their vertices: by the first with counting, then within each first vertex.
+std::vector<std::uint32_t> sorted_order(const Tetrahedralization& t, const Threads& threads) {
+  const auto& tetrahedra = t.tetrahedra.raw();
+  const std::size_t vertices = t.positions.size();
+  std::vector<std::uint32_t> begin(vertices + 1, 0);
+  for (const auto& v : tetrahedra) ++begin[v[0].value + 1];
+  for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
+  std::vector<std::uint32_t> order(tetrahedra.size());
+  std::vector<std::uint32_t> cursor(begin.begin(), begin.end() - 1);
+  for (std::uint32_t i = 0; i < tetrahedra.size(); ++i) order[cursor[tetrahedra[i][0].value]++] = i;
+  for_each_index(threads, vertices, [&](std::size_t v) {
+    std::sort(order.begin() + begin[v], order.begin() + begin[v + 1],
+              [&](std::uint32_t a, std::uint32_t b) { return tetrahedra[a] < tetrahedra[b]; });
+  });
+  return order;
+}
+
+/// From the engine's order, which depends on the order of insertion, to one that does not.
+void sort_tetrahedra(Tetrahedralization& t, const Threads& threads) {
+  const std::vector<std::uint32_t> order = sorted_order(t, threads);
+  std::vector<std::uint32_t> rank(order.size());
+  for_each_index(threads, order.size(), [&](std::size_t i) { rank[order[i]] = static_cast<std::uint32_t>(i); });
+  std::vector<std::array<SampleIndex, 4>> tetrahedra(order.size());
+  for_each_index(threads, order.size(), [&](std::size_t i) { tetrahedra[i] = t.tetrahedra.raw()[order[i]]; });
+  t.tetrahedra.raw() = std::move(tetrahedra);
+  std::vector<std::array<TetrahedronIndex, 4>> neighbours(order.size());
+  for_each_index(threads, order.size(), [&](std::size_t i) {
+    neighbours[i] = t.neighbours.raw()[order[i]];
+    for (TetrahedronIndex& n : neighbours[i])
+      if (n.valid()) n = TetrahedronIndex{rank[n.value]};
+  });
+  t.neighbours.raw() = std::move(neighbours);
+}
+
 } // namespace
 
-Tetrahedralization tetrahedralize(Samples samples, const Threads& threads) {
+Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const std::function<void()>& beside) {
   const int dimension = affine_dimension(samples.positions.raw());
   if (dimension < 3)
     throw Error(ErrorKind::input, "delaunay", dimension < 2 ? "all points are collinear" : "all points are coplanar",
@@ -140,11 +150,19 @@ Tetrahedralization tetrahedralize(Samples samples, const Threads& threads) {
   for (const double x : {-h, h})
     for (const double y : {-h, h})
       for (const double z : {-h, h}) result.positions.raw().push_back({x, y, z});
-  Delaunay delaunay;
-  insert_all(delaunay, result.positions, result.sample_count);
+  auto engine = std::make_unique<Delaunay>();
+  Delaunay& delaunay = *engine;
+  threads.run(beside ? 2 : 1, [&](std::size_t task) {
+    if (task == 0)
+      insert_all(delaunay, result.positions, result.sample_count);
+    else
+      beside();
+  });
   if (delaunay.number_of_vertices() != result.positions.size())
     throw Error(ErrorKind::guarantee, "delaunay", "a sample was lost", "report this as a fault of the program");
-  copy_cells(delaunay, result, threads);
+  copy_cells(delaunay, result);
+  engine.reset(); // its half a kilobyte per sample is not needed beside ours
+  sort_tetrahedra(result, threads);
   return result;
 }
 

@@ -32,12 +32,14 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 class HandleClosing {
  public:
   HandleClosing(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& first,
-                const Labels& known, std::span<const float> grid_spacing, ManifoldRule rule, FinalLabels& labels)
+                const Labels& known, std::span<const float> grid_spacing, ManifoldRule rule, FinalLabels& labels,
+                const Threads& threads)
       : t_(t),
         stars_(stars),
         first_(first),
         grid_spacing_(grid_spacing),
         labels_(labels),
+        threads_(threads),
         repair_(t, stars, poles, known, rule, labels),
         changed_(t.positions.size(), 0),
         taken_(t.tetrahedra.size(), 0) {}
@@ -62,7 +64,7 @@ class HandleClosing {
     std::fill(changed_.begin(), changed_.end(), 0);
     std::uint64_t closed = 0;
     Samples loop;
-    for (const auto& vertices : handle_loops(surface.mesh.triangles, surface.mesh.vertices.size())) {
+    for (const auto& vertices : handle_loops(surface.mesh.triangles, surface.mesh.vertices.size(), threads_)) {
       if (vertices.size() > longest_loop) break;
       if (checkpoint) checkpoint(0);
       loop.clear();
@@ -240,6 +242,7 @@ class HandleClosing {
   const Labels& first_;
   std::span<const float> grid_spacing_;
   FinalLabels& labels_;
+  const Threads& threads_;
   StarRepair repair_;
   std::set<Samples> failed_;          ///< loops that nothing closed
   std::vector<std::uint8_t> changed_; ///< samples, in this round
@@ -250,9 +253,10 @@ class HandleClosing {
 
 std::uint64_t close_handles(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles,
                             const Labels& first, const Labels& known, std::span<const float> grid_spacing,
-                            ManifoldRule rule, FinalLabels& labels, const Checkpoint& checkpoint) {
+                            ManifoldRule rule, FinalLabels& labels, const Threads& threads,
+                            const Checkpoint& checkpoint) {
   if (grid_spacing.empty()) return 0; // without noise every handle is meant
-  return HandleClosing(t, stars, poles, first, known, grid_spacing, rule, labels).run(checkpoint);
+  return HandleClosing(t, stars, poles, first, known, grid_spacing, rule, labels, threads).run(checkpoint);
 }
 
 } // namespace eigencrust

@@ -118,19 +118,19 @@ Partition partition_components(const SignedGraph& graph, const Components& compo
 }
 
 /// Both supernodes given, the rest solved for: the limit λ -> 0 of §3.4 with supernodes of equal size.
-Partition partition_harmonic(const SignedGraph& graph, const SolverOptions& options, const Threads& threads,
+Partition partition_harmonic(SignedGraph graph, const SolverOptions& options, const Threads& threads,
                              const Checkpoint& checkpoint) {
-  BorderedMatrix matrix = signed_laplacian(graph, threads);
   const std::uint32_t n = graph.node_count();
   Vector rhs(n);
   for (std::uint32_t i = 0; i < n; ++i)
     rhs[i] = static_cast<double>(graph.supernodes[0].weight[i]) - static_cast<double>(graph.supernodes[1].weight[i]);
+  BorderedMatrix matrix = signed_laplacian(std::move(graph), threads);
   matrix.border.clear();
   matrix.corner.clear();
   const SignedMultigrid hierarchy(std::move(matrix), {}, threads);
   IterationControl control = control_of(options, checkpoint);
   control.stable_residual = 1e-4; // docs/decisions/0009
-  const IterationResult result = conjugate_gradients(hierarchy, rhs, control, threads);
+  const IterationResult result = conjugate_gradients(hierarchy, std::move(rhs), control, threads);
   Partition partition;
   take_figures(result, partition);
   partition.components = 1;
@@ -150,15 +150,15 @@ Partition partition_poles(const PoleGraph& graph, const SolverOptions& options, 
   return partition;
 }
 
-Partition partition_tetrahedra(const TetrahedronGraph& graph, SecondStage method, const SolverOptions& options,
+Partition partition_tetrahedra(SignedGraph graph, SecondStage method, const SolverOptions& options,
                                const Threads& threads, const Checkpoint& checkpoint) {
-  if (graph.graph.node_count() == 0) {
+  if (graph.node_count() == 0) {
     Partition nothing;
     nothing.supernode_value = {1, -1};
     return nothing;
   }
-  if (method == SecondStage::harmonic) return partition_harmonic(graph.graph, options, threads, checkpoint);
-  return partition_components(graph.graph, connected_components(graph.graph), options, threads, checkpoint);
+  if (method == SecondStage::harmonic) return partition_harmonic(std::move(graph), options, threads, checkpoint);
+  return partition_components(graph, connected_components(graph), options, threads, checkpoint);
 }
 
 } // namespace eigencrust

@@ -116,7 +116,7 @@ FinalLabels label_tetrahedra(const TetrahedronGraph& graph, const Partition& par
   result.labels = std::move(labels);
   result.value = IndexedArray<TetrahedronIndex, float>(result.labels.size());
   const double out = partition.supernode_value[0], in = partition.supernode_value[1];
-  result.supernodes_agree = graph.graph.node_count() > 0 && out * in > 0;
+  result.supernodes_agree = graph.tetrahedron.size() > 0 && out * in > 0;
   const float sign = out >= 0 ? 1.0f : -1.0f;
   for (std::uint32_t i = 0; i < result.labels.size(); ++i) {
     const Label label = result.labels.raw()[i];

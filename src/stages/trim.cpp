@@ -61,8 +61,9 @@ bool is_seen(const Tetrahedralization& t, std::span<const SightLine> lines, bool
 /// \return how many triangles
 std::size_t mark_smaller_fans(const TriangleMesh& mesh, std::vector<std::uint8_t>& gone) {
   const auto& triangles = mesh.triangles;
+  if (triangles.empty()) return 0;
   DisjointSets fans(3 * triangles.size());
-  const std::vector<Side> sides = sorted_sides(triangles, mesh.vertices.size());
+  const std::vector<Side> sides = sorted_sides(triangles, mesh.vertices.size(), Threads(1));
   for_each_edge(sides, [&](std::span<const Side> edge) {
     if (edge.size() != 2) return;
     fans.unite(edge[0].corner_at_low(), edge[1].corner_at_low());

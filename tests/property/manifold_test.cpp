@@ -12,7 +12,7 @@ using clouds::Prepared;
 
 void expect_repaired(const Prepared& p, const FinalLabels& before, ManifoldRule rule) {
   FinalLabels labels = before;
-  const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, rule, labels);
+  const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, rule, labels, Threads(2));
   std::uint64_t changed = 0;
   for (std::uint32_t i = 0; i < labels.labels.size(); ++i) {
     const Label label = labels.labels.raw()[i], old = before.labels.raw()[i];
@@ -38,7 +38,7 @@ void expect_repaired(const Prepared& p, const FinalLabels& before, ManifoldRule 
   EXPECT_EQ(m.inconsistent_edges, 0u);
   EXPECT_GT(m.volume, 0);
   // A second repair has nothing left to do.
-  const ManifoldCounts again = make_manifold(p.t, p.stars, p.poles, p.known, rule, labels);
+  const ManifoldCounts again = make_manifold(p.t, p.stars, p.poles, p.known, rule, labels, Threads(2));
   EXPECT_EQ(again.relabelled, 0u);
 }
 
@@ -80,7 +80,7 @@ TEST(RecoveredSamples, LeaveAManifoldAManifoldAndKnownLabelsAlone) {
     FinalLabels labels = clouds::random_labels(p.t, 0, seed);
     for (std::uint32_t i = 0; i < labels.labels.size(); ++i)
       if (norm(clouds::centroid(p.t, TetrahedronIndex{i})) < 0.7) labels.labels.raw()[i] = Label::inside;
-    make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::cheapest, labels);
+    make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::cheapest, labels, Threads(2));
     const Surface before = extract_surface(p.t, labels.labels);
     Labels known = known_labels(p.t, {}, {}, {}, Threads(1));
     for (std::uint32_t i = 0; i < known.size(); i += 3) known.raw()[i] = labels.labels.raw()[i];

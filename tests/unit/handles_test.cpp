@@ -54,14 +54,15 @@ std::pair<int, int> windings(const Loop& loop, int n, int m) {
 
 TEST(HandleLoops, SphereHasNone) {
   const std::vector<Triangle> tetrahedron{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
-  EXPECT_TRUE(handle_loops(tetrahedron, 4).empty());
-  EXPECT_TRUE(handle_loops({}, 0).empty());
+  EXPECT_TRUE(handle_loops(tetrahedron, 4, Threads(2)).empty());
+  EXPECT_TRUE(handle_loops({}, 0, Threads(2)).empty());
 }
 
 TEST(HandleLoops, TorusHasTwoThatGenerateAll) {
   for (const auto& [n, m] : {std::pair(5, 9), std::pair(9, 5), std::pair(4, 4), std::pair(3, 20)}) {
     const auto triangles = torus_mesh(static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(m));
-    const std::vector<Loop> loops = handle_loops(triangles, static_cast<std::size_t>(n) * static_cast<std::size_t>(m));
+    const std::vector<Loop> loops =
+        handle_loops(triangles, static_cast<std::size_t>(n) * static_cast<std::size_t>(m), Threads(2));
     ASSERT_EQ(loops.size(), 2u);
     // A step moves by at most one along i and along j: n steps around one way, m around the other.
     EXPECT_EQ(loops[0].size(), static_cast<std::size_t>(std::min(n, m)));
@@ -77,7 +78,7 @@ TEST(HandleLoops, TorusHasTwoThatGenerateAll) {
 TEST(HandleLoops, OfTwoToriFourShortestFirst) {
   std::vector<Triangle> triangles = torus_mesh(4, 7);
   for (const Triangle& t : torus_mesh(6, 5, 28)) triangles.push_back(t);
-  const std::vector<Loop> loops = handle_loops(triangles, 28 + 30);
+  const std::vector<Loop> loops = handle_loops(triangles, 28 + 30, Threads(2));
   std::vector<std::size_t> lengths;
   for (const Loop& loop : loops) lengths.push_back(loop.size());
   EXPECT_THAT(lengths, testing::ElementsAre(4, 5, 6, 7));
@@ -98,7 +99,7 @@ TEST(SurfacePart, OfAllSamplesIsTheWholeSurface) {
   const Prepared p = clouds::prepare(clouds::random_box(400, 1));
   for (const double share : {0.1, 0.3, 0.5, 0.8}) { // few pieces up to many handles
     FinalLabels labels = clouds::random_labels(p.t, share, 2);
-    make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::cheapest, labels);
+    make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::cheapest, labels, Threads(2));
     const MeshSummary whole = summary_of(p.t, labels.labels);
     ASSERT_GT(whole.components, 0u);
     const SurfacePart part = surface_part(p.t, p.stars, labels.labels, all_samples(p.t));
@@ -172,11 +173,12 @@ struct Solid {
       labels.value[i] = (side == Label::inside ? -1.0f : 1.0f) * (is_open ? certainty : 1.0f);
       first[i] = is_open ? Label::unlabelled : side;
     }
-    make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::cheapest, labels);
+    make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::cheapest, labels, Threads(2));
     grid_spacing.assign(p.t.sample_count, 0.05f); // loops of up to 3.2 are noise: all of them
   }
   std::uint64_t close() {
-    return close_handles(p.t, p.stars, p.poles, first, p.known, grid_spacing, ManifoldRule::cheapest, labels);
+    return close_handles(p.t, p.stars, p.poles, first, p.known, grid_spacing, ManifoldRule::cheapest, labels,
+                         Threads(2));
   }
   [[nodiscard]] MeshSummary summary() const { return summary_of(p.t, labels.labels); }
 };

@@ -64,7 +64,7 @@ TEST(Manifold, WhatIsManifoldIsLeftAlone) {
     FinalLabels labels = all_outside(p.t);
     set_inside(labels, a, 0.5f);
     set_inside(labels, b, 0.25f);
-    const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, rule, labels);
+    const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, rule, labels, Threads(2));
     EXPECT_EQ(counts.edges + counts.vertices + counts.relabelled, 0u);
     EXPECT_THAT(inside_of(labels), testing::ElementsAre(a, b));
   }
@@ -78,7 +78,7 @@ TEST(Manifold, OfTwoStrandsAtAnEdgeTheMoreCertainStays) {
       FinalLabels labels = all_outside(p.t); // outside is certain: filling up would cost more
       set_inside(labels, a, first_is_stronger ? 0.5f : 0.25f);
       set_inside(labels, b, first_is_stronger ? 0.25f : 0.5f);
-      const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, rule, labels);
+      const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, rule, labels, Threads(2));
       EXPECT_THAT(inside_of(labels), testing::ElementsAre(first_is_stronger ? a : b));
       EXPECT_EQ(counts.edges, 1u);
       EXPECT_EQ(counts.relabelled, 1u);
@@ -92,7 +92,7 @@ TEST(Manifold, OfEquallyCertainStrandsTheLargerStays) {
     FinalLabels labels = all_outside(p.t);
     set_inside(labels, a, 0.5f);
     set_inside(labels, b, 0.5f);
-    make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, labels);
+    make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, labels, Threads(2));
     EXPECT_THAT(inside_of(labels), testing::ElementsAre(clouds::volume(p.t, a) > clouds::volume(p.t, b) ? a : b));
   }
 }
@@ -122,12 +122,13 @@ TEST(Manifold, ThinOutsideWedgeIsFilledWhereThatIsCheapest) {
     labels.value[ring[0]] = 0.125f;
     labels.value[other] = 1.0f;
     FinalLabels paper = labels;
-    const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::cheapest, labels);
+    const ManifoldCounts counts =
+        make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::cheapest, labels, Threads(2));
     EXPECT_EQ(counts.relabelled, 1u);
     EXPECT_EQ(labels.labels[ring[0]], Label::inside);
     EXPECT_EQ(labels.labels[other], Label::outside);
     expect_closed_manifold(p.t, labels);
-    make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, paper);
+    make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, paper, Threads(2));
     EXPECT_EQ(paper.labels[ring[0]], Label::outside);
     expect_closed_manifold(p.t, paper);
     return;
@@ -149,7 +150,8 @@ TEST(Manifold, AtABowTieTheComponentWithThePoleStays) {
       FinalLabels labels = all_outside(p.t);
       set_inside(labels, pole, 0.25f);
       set_inside(labels, other, 0.5f); // more certain, but no pole
-      const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, labels);
+      const ManifoldCounts counts =
+          make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, labels, Threads(2));
       EXPECT_THAT(inside_of(labels), testing::ElementsAre(pole));
       EXPECT_EQ(counts.vertices, 1u);
       ++tried;
@@ -182,7 +184,8 @@ TEST(Manifold, CavitiesThatTouchAreJoinedAlongTheShortestPath) {
       if (!p.t.touches_cube(TetrahedronIndex{k}))
         set_inside(labels, TetrahedronIndex{k}, static_cast<float>(random.uniform(0.1, 1)));
     FinalLabels solid = labels;
-    make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, solid); // its hull may need repair, once
+    make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, solid,
+                  Threads(2)); // its hull may need repair, once
     for (const TetrahedronIndex t : {star[0], other}) solid.labels[t] = Label::outside;
     // Bellman-Ford over the star.
     std::map<TetrahedronIndex, double> length;
@@ -194,7 +197,7 @@ TEST(Manifold, CavitiesThatTouchAreJoinedAlongTheShortestPath) {
           if (length.count(n))
             length[n] = std::min(length[n], length[t] + (n == other ? 0.0 : std::fabs(double(solid.value[n]))));
     const FinalLabels before = solid;
-    const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, solid);
+    const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, solid, Threads(2));
     expect_closed_manifold(p.t, solid);
     if (counts.vertices != 1 || counts.edges != 0) continue; // the path met something else
     double price = 0;
@@ -210,7 +213,8 @@ TEST(Manifold, CheckpointMayCancel) {
   const Prepared p = clouds::prepare(clouds::random_box(60, 8));
   FinalLabels labels = clouds::random_labels(p.t, 0.5, 9);
   const auto cancel = [](double) { throw std::runtime_error("cancelled"); };
-  EXPECT_THROW(make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, labels, cancel), std::runtime_error);
+  EXPECT_THROW(make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, labels, Threads(2), cancel),
+               std::runtime_error);
 }
 
 } // namespace

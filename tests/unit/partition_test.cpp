@@ -159,7 +159,7 @@ TEST(PartitionTetrahedra, HarmonicValuesEqualTheDenseSolution) {
   const Eigen::VectorXd expected = l.ldlt().solve(rhs);
   SolverOptions options;
   options.stop_on_stable_signs = false;
-  const Partition partition = partition_tetrahedra(h, SecondStage::harmonic, options, Threads(2));
+  const Partition partition = partition_tetrahedra(h.graph, SecondStage::harmonic, options, Threads(2));
   EXPECT_EQ(partition.status, SolverStatus::converged);
   EXPECT_THAT(partition.supernode_value, testing::ElementsAre(1, -1));
   for (std::uint32_t i = 0; i < n; ++i) EXPECT_NEAR(partition.value[i], expected(i), 1e-6);
@@ -169,7 +169,7 @@ TEST(PartitionTetrahedra, HarmonicValuesStayBetweenTheSupernodes) {
   for (const std::uint32_t n : {30u, 3000u}) {
     SolverOptions options;
     options.stop_on_stable_signs = false;
-    const Partition partition = partition_tetrahedra(second_graph(n, n), SecondStage::harmonic, options, Threads(1));
+    const Partition partition = partition_tetrahedra(second_graph(n, n).graph, SecondStage::harmonic, options, Threads(1));
     for (const float v : partition.value) {
       EXPECT_LE(v, 1 + 1e-6f);
       EXPECT_GE(v, -1 - 1e-6f);
@@ -182,7 +182,7 @@ TEST(PartitionTetrahedra, NodesHeldByOneSupernodeOnlyTakeItsSide) {
   TetrahedronGraph h{graphs::from_edges(5, {{{0, 1}, 1.0}, {{1, 2}, 2.0}, {{3, 4}, 1.5}}, {{{0, 1.0}}, {{4, 3.0}}}),
                      {}};
   h.graph.supernode_weight = {{0, -4}, {-4, 0}};
-  const Partition partition = partition_tetrahedra(h, SecondStage::harmonic, {}, Threads(1));
+  const Partition partition = partition_tetrahedra(h.graph, SecondStage::harmonic, {}, Threads(1));
   for (std::uint32_t i = 0; i < 5; ++i) EXPECT_NEAR(partition.value[i], i < 3 ? 1 : -1, 1e-5);
 }
 
@@ -199,7 +199,7 @@ TEST(PartitionTetrahedra, EigenvectorSeparatesTwoClearHalves) {
   TetrahedronGraph h{graphs::from_edges(600, edges, super), {}};
   h.graph.supernode_weight = {{0, -240}, {-240, 0}};
   for (const SecondStage method : {SecondStage::eigenvector, SecondStage::harmonic}) {
-    const Partition partition = partition_tetrahedra(h, method, {}, Threads(1));
+    const Partition partition = partition_tetrahedra(h.graph, method, {}, Threads(1));
     EXPECT_LT(partition.supernode_value[0] * partition.supernode_value[1], 0);
     for (std::uint32_t i = 0; i < 600; ++i)
       EXPECT_GT(partition.value[i] * partition.supernode_value[i < 300 ? 0 : 1], 0) << i;
@@ -209,7 +209,7 @@ TEST(PartitionTetrahedra, EigenvectorSeparatesTwoClearHalves) {
 TEST(PartitionTetrahedra, OfNoNodesKeepsTheSupernodesApart) {
   const TetrahedronGraph h{graphs::from_edges(0, {}, {{}, {}}), {}};
   for (const SecondStage method : {SecondStage::eigenvector, SecondStage::harmonic}) {
-    const Partition partition = partition_tetrahedra(h, method, {}, Threads(1));
+    const Partition partition = partition_tetrahedra(h.graph, method, {}, Threads(1));
     EXPECT_EQ(partition.status, SolverStatus::trivial);
     EXPECT_THAT(partition.supernode_value, testing::ElementsAre(1, -1));
   }
@@ -218,8 +218,8 @@ TEST(PartitionTetrahedra, OfNoNodesKeepsTheSupernodesApart) {
 TEST(PartitionTetrahedra, IsTheSameForAnyThreads) {
   const TetrahedronGraph h = second_graph(40000, 8);
   for (const SecondStage method : {SecondStage::eigenvector, SecondStage::harmonic}) {
-    const Partition one = partition_tetrahedra(h, method, {}, Threads(1));
-    const Partition three = partition_tetrahedra(h, method, {}, Threads(3));
+    const Partition one = partition_tetrahedra(h.graph, method, {}, Threads(1));
+    const Partition three = partition_tetrahedra(h.graph, method, {}, Threads(3));
     EXPECT_EQ(one.value, three.value);
     EXPECT_EQ(one.iterations, three.iterations);
     EXPECT_EQ(one.residual, three.residual);
