@@ -48,7 +48,7 @@ FirstHalf first_half(const PointCloud& cloud, const Options& options, Run& run, 
       if (options.detect_facade) report.one_sided = one_sided_scan(t, lines);
       half.crossings = sight_crossings(t, stars, lines, options.weights, named, threads);
       return line_of_sight(t, stars, lines, half.crossings,
-                           {options.crossing_count, options.behind_count, options.weights}, named, threads);
+                           {options.crossing_count, options.behind_count, options.weights, isolated}, named, threads);
     });
     describe_sight(half.crossings, sight, named, run, report);
     half.known.labels = sight.labels;

@@ -112,6 +112,7 @@ struct SightRule {
   std::uint32_t crossing_count = 2; ///< lines
   std::uint32_t behind_count = 0;   ///< samples; 0: none makes it inside
   Weights weights = Weights::evidence;
+  std::span<const float> isolated = {}; ///< of each sample, see Neighbourhoods; tetrahedra at those are not made inside
 };
 /// §3.1: `known`, and outside for the tetrahedra without a label that enough lines cross, more than there are
 /// samples right in front of them. Lines that cross what more samples lie in front of than lines cross are not

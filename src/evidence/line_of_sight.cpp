@@ -187,11 +187,18 @@ SightLabels line_of_sight(const Tetrahedralization& t, const VertexStars& stars,
       },
       lines_per_block);
   result.labels = known;
+  // Behind a thin part a tetrahedron may reach out to an outlier.
+  const auto holds_isolated = [&](TetrahedronIndex at) {
+    return !rule.isolated.empty() && std::any_of(t.tetrahedra[at].begin(), t.tetrahedra[at].end(), [&](SampleIndex s) {
+      return !t.is_corner(s) && rule.isolated[s.value] > 0;
+    });
+  };
   for_each_index(threads, known.size(), [&](std::size_t i) {
     const TetrahedronIndex at{static_cast<std::uint32_t>(i)};
     if (known[at] != Label::unlabelled) return;
     if (believed[at] >= rule.crossing_count && believed[at] > behind[at]) result.labels[at] = Label::outside;
-    if (rule.behind_count > 0 && behind[at] >= rule.behind_count && crossed[at] == 0) result.labels[at] = Label::inside;
+    if (rule.behind_count > 0 && behind[at] >= rule.behind_count && crossed[at] == 0 && !holds_isolated(at))
+      result.labels[at] = Label::inside;
   });
   return result;
 }

@@ -169,7 +169,8 @@ TEST(PartitionTetrahedra, HarmonicValuesStayBetweenTheSupernodes) {
   for (const std::uint32_t n : {30u, 3000u}) {
     SolverOptions options;
     options.stop_on_stable_signs = false;
-    const Partition partition = partition_tetrahedra(second_graph(n, n).graph, SecondStage::harmonic, options, Threads(1));
+    const Partition partition =
+        partition_tetrahedra(second_graph(n, n).graph, SecondStage::harmonic, options, Threads(1));
     for (const float v : partition.value) {
       EXPECT_LE(v, 1 + 1e-6f);
       EXPECT_GE(v, -1 - 1e-6f);
