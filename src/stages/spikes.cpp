@@ -69,9 +69,27 @@ class SpikeCutting {
     return price;
   }
 
-  /// Changes sides; takes it back if the surface is no manifold then, or has other handles or more pieces.
+  /// How much the surface's area would change.
+  double area_change(const std::vector<Flip>& flips) const {
+    double change = 0;
+    for (const Flip& f : flips) {
+      const auto& v = t_.tetrahedra[f.tetrahedron];
+      for (std::size_t k = 0; k < 4; ++k) {
+        const TetrahedronIndex n = t_.neighbours[f.tetrahedron][k];
+        const auto same = [&](const Flip& other) { return other.tetrahedron == n; };
+        if (!n.valid() || std::any_of(flips.begin(), flips.end(), same)) continue;
+        const Vec3& a = t_.positions[v[(k + 1) % 4]];
+        const double area = norm(cross(t_.positions[v[(k + 2) % 4]] - a, t_.positions[v[(k + 3) % 4]] - a)) / 2;
+        change += labels_.labels[n] == f.before ? area : -area;
+      }
+    }
+    return change;
+  }
+
+  /// Changes sides where that makes the surface smaller: filling up beside a spike can reach out to the next outlier.
+  /// Takes it back if the surface is no manifold then, or has other handles or more pieces.
   bool flip(const std::vector<Flip>& flips) {
-    if (flips.empty()) return false;
+    if (flips.empty() || !(area_change(flips) < 0)) return false;
     std::vector<std::uint32_t> around;
     for (const Flip& f : flips)
       for (const SampleIndex s : t_.tetrahedra[f.tetrahedron])
