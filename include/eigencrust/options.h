@@ -79,7 +79,7 @@ struct SolverOptions {
   /// Stop when signs no longer change; otherwise on the residual alone.
   bool stop_on_stable_signs = true;
   /// Share of all nodes that may still change sign in each of two steps running; in (0, 1].
-  double stable_share = 1e-4;
+  double stable_share = 2e-4;
   /// Residual of D^-1/2 L D^-1/2 at which a vector counts as converged; > 0.
   double tolerance = 1e-8;
   /// Steps on the finest level at most (Lanczos: restarts); >= 1.

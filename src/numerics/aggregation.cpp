@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace eigencrust {
 namespace {
@@ -11,68 +12,239 @@ constexpr std::uint32_t none = 0xffffffffu;
 // Nodes are matched inside blocks of this many, all threads at a time; what is left over is matched after.
 constexpr std::size_t matching_block = 32768;
 
-/// Greedy matching in node order: deterministic, and along a space-filling curve also compact.
-class Matching {
+/// Sums of one row by column. They are formed in the order in which they are given, and columns are kept in the order
+/// of their first appearance.
+class RowSums {
  public:
-  explicit Matching(const BorderedMatrix& m, const Threads& threads)
-      : m_(m), partner_(m.interior_size(), none), scale_(m.interior_size()) {
-    for_each_index(threads, scale_.size(), [&](std::size_t i) {
-      scale_[i] = m.diagonal[i] > 0 ? static_cast<float>(1 / std::sqrt(m.diagonal[i])) : 0.0f;
-    });
-    for_blocks(threads, scale_.size(), matching_block, [&](std::size_t begin, std::size_t end, std::size_t) {
-      match(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
-    });
-    match(0, m.interior_size());
+  struct Entry {
+    std::uint32_t column;
+    double sum, size;
+  };
+
+  explicit RowSums(std::size_t columns) : place_(columns, none) {}
+
+  void add(std::uint32_t column, double value) {
+    std::uint32_t& place = place_[column];
+    if (place == none) {
+      place = static_cast<std::uint32_t>(entry_.size());
+      entry_.push_back({column, value, std::fabs(value)});
+      return;
+    }
+    entry_[place].sum += value;
+    entry_[place].size += std::fabs(value);
   }
 
-  /// The strongest neighbour of a node that found none free; none for a node without neighbours.
-  std::uint64_t strongest(std::uint32_t i) const {
-    float best = -1;
-    std::uint64_t entry = no_entry;
-    for (std::uint64_t e = m_.row_begin[i]; e < m_.row_begin[i + 1]; ++e) {
-      const float strength = std::fabs(m_.value[e]) * scale_[m_.column[e]];
-      if (strength > best) {
-        best = strength;
-        entry = e;
-      }
+  /// Calls visit(column, sum) for what does not cancel, and empties the table.
+  template <class Visit>
+  void take(const Visit& visit) {
+    for (const Entry& e : entry_) {
+      place_[e.column] = none;
+      if (std::fabs(e.sum) > 1e-7 * e.size) visit(e.column, static_cast<float>(e.sum));
     }
-    return entry;
+    entry_.clear();
   }
-  std::uint32_t partner(std::uint32_t i) const { return partner_[i]; }
-  static constexpr std::uint64_t no_entry = ~0ull;
 
  private:
-  /// Pairs free nodes of [begin, end) with each other.
-  void match(std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end; ++i) {
-      if (partner_[i] != none) continue;
-      float best = -1;
-      std::uint32_t with = none;
-      for (std::uint64_t e = m_.row_begin[i]; e < m_.row_begin[i + 1]; ++e) {
-        const std::uint32_t j = m_.column[e];
-        if (j < begin || j >= end || partner_[j] != none) continue;
-        const float strength = std::fabs(m_.value[e]) * scale_[j];
-        if (strength > best) {
-          best = strength;
-          with = j;
-        }
-      }
-      if (with == none) continue;
-      partner_[i] = with;
-      partner_[with] = i;
-    }
-  }
-
-  const BorderedMatrix& m_;
-  std::vector<std::uint32_t> partner_;
-  std::vector<float> scale_;
+  std::vector<std::uint32_t> place_; ///< in entry_
+  std::vector<Entry> entry_;
 };
 
-float entry_between(const BorderedMatrix& m, std::uint32_t i, std::uint32_t j) {
-  for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1]; ++e)
-    if (m.column[e] == j) return m.value[e];
-  return 0;
-}
+/// The entries of M itself.
+class EntriesOfNodes {
+ public:
+  explicit EntriesOfNodes(const BorderedMatrix& m) : m_(m) {}
+  [[nodiscard]] std::uint32_t size() const { return m_.interior_size(); }
+  [[nodiscard]] double diagonal(std::uint32_t i) const { return m_.diagonal[i]; }
+
+  /// visit(column, value) for the entries of a row with columns in [begin, end).
+  class Reader {
+   public:
+    Reader(const EntriesOfNodes& entries, std::uint32_t begin, std::uint32_t end)
+        : m_(entries.m_), begin_(begin), end_(end) {}
+    template <class Visit>
+    void operator()(std::uint32_t i, const Visit& visit) {
+      for (std::uint64_t e = m_.row_begin[i]; e < m_.row_begin[i + 1]; ++e)
+        if (m_.column[e] >= begin_ && m_.column[e] < end_) visit(m_.column[e], m_.value[e]);
+    }
+
+   private:
+    const BorderedMatrix& m_;
+    std::uint32_t begin_, end_;
+  };
+
+ private:
+  const BorderedMatrix& m_;
+};
+
+/// The entries of Pᵀ M P, summed when they are asked for: half of the rows never are.
+class EntriesOfAggregates {
+ public:
+  EntriesOfAggregates(const BorderedMatrix& m, const Aggregation& a) : m_(m), a_(a) {}
+  [[nodiscard]] std::uint32_t size() const { return a_.count; }
+  [[nodiscard]] double diagonal(std::uint32_t g) const {
+    double sum = 0;
+    for (std::uint32_t k = a_.begin[g]; k < a_.begin[g + 1]; ++k) {
+      const std::uint32_t i = a_.member[k];
+      sum += m_.diagonal[i];
+      for (std::uint64_t e = m_.row_begin[i]; e < m_.row_begin[i + 1]; ++e)
+        if (a_.aggregate[m_.column[e]] == g) sum += signed_entry(m_, a_, i, e);
+    }
+    return sum;
+  }
+  static double signed_entry(const BorderedMatrix& m, const Aggregation& a, std::uint32_t i, std::uint64_t e) {
+    return static_cast<double>(a.sign[i] == a.sign[m.column[e]] ? m.value[e] : -m.value[e]);
+  }
+
+  class Reader {
+   public:
+    Reader(const EntriesOfAggregates& entries, std::uint32_t begin, std::uint32_t end)
+        : m_(entries.m_), a_(entries.a_), begin_(begin), end_(end), sums_(end - begin) {}
+    template <class Visit>
+    void operator()(std::uint32_t g, const Visit& visit) {
+      for (std::uint32_t k = a_.begin[g]; k < a_.begin[g + 1]; ++k) {
+        const std::uint32_t i = a_.member[k];
+        for (std::uint64_t e = m_.row_begin[i]; e < m_.row_begin[i + 1]; ++e) {
+          const std::uint32_t column = a_.aggregate[m_.column[e]];
+          if (column != g && column >= begin_ && column < end_) sums_.add(column - begin_, signed_entry(m_, a_, i, e));
+        }
+      }
+      sums_.take([&](std::uint32_t column, float value) { visit(column + begin_, value); });
+    }
+
+   private:
+    const BorderedMatrix& m_;
+    const Aggregation& a_;
+    std::uint32_t begin_, end_;
+    RowSums sums_;
+  };
+
+ private:
+  const BorderedMatrix& m_;
+  const Aggregation& a_;
+};
+
+/// Greedy matching in node order: deterministic, and along a space-filling curve also compact.
+template <class Entries>
+class Matching {
+ public:
+  Matching(const Entries& entries, const Threads& threads)
+      : entries_(entries), partner_(entries.size(), none), attracts_(entries.size(), 1), scale_(entries.size()) {
+    for_each_index(threads, scale_.size(), [&](std::size_t i) {
+      const double d = entries.diagonal(static_cast<std::uint32_t>(i));
+      scale_[i] = d > 0 ? static_cast<float>(1 / std::sqrt(d)) : 0.0f;
+    });
+    for_blocks(threads, scale_.size(), matching_block, [&](std::size_t begin, std::size_t end, std::size_t) {
+      typename Entries::Reader read(entries_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
+      for (std::size_t i = begin; i < end; ++i) match(static_cast<std::uint32_t>(i), read);
+    });
+    match_between_blocks(threads);
+  }
+
+  /// The number of pairs, and for each node its pair's number and sign; nodes left alone join the pair of their
+  /// strongest neighbour, or coarsening would stall on stars. (All their neighbours have partners: of two free
+  /// neighbours one would have taken the other.) Nodes without neighbours get none.
+  Aggregation aggregation(const Threads& threads) const {
+    Aggregation a;
+    const std::size_t n = partner_.size();
+    a.aggregate.assign(n, none);
+    a.sign.assign(n, 1);
+    std::vector<std::uint32_t> pairs((n + default_block - 1) / default_block);
+    const auto leads = [&](std::size_t i) { return partner_[i] != none && partner_[i] > i; };
+    for_blocks(threads, n, default_block, [&](std::size_t begin, std::size_t end, std::size_t b) {
+      for (std::size_t i = begin; i < end; ++i) pairs[b] += leads(i);
+    });
+    for (std::uint32_t& count : pairs) a.count += std::exchange(count, a.count);
+    for_blocks(threads, n, default_block, [&](std::size_t begin, std::size_t end, std::size_t b) {
+      std::uint32_t next = pairs[b];
+      for (std::size_t i = begin; i < end; ++i) {
+        if (!leads(i)) continue;
+        a.aggregate[i] = a.aggregate[partner_[i]] = next++;
+        a.sign[partner_[i]] = attracts_[i];
+      }
+    });
+    for (const auto& [i, neighbour, attracts] : followers(threads)) {
+      a.aggregate[i] = a.aggregate[neighbour];
+      a.sign[i] = static_cast<std::int8_t>(attracts * a.sign[neighbour]);
+    }
+    return a;
+  }
+
+ private:
+  struct Strongest {
+    std::uint32_t node = none;
+    float strength = -1;
+    std::int8_t attracts = 1; ///< +1 or -1
+  };
+  struct Follower {
+    std::uint32_t node, neighbour;
+    std::int8_t attracts;
+  };
+
+  template <class Allowed>
+  Strongest strongest(std::uint32_t i, typename Entries::Reader& read, const Allowed& allowed) const {
+    Strongest best;
+    read(i, [&](std::uint32_t j, float value) {
+      const float strength = std::fabs(value) * scale_[j];
+      if (strength > best.strength && allowed(j)) best = {j, strength, static_cast<std::int8_t>(value <= 0 ? 1 : -1)};
+    });
+    return best;
+  }
+
+  /// Pairs a free node with its strongest free neighbour.
+  void match(std::uint32_t i, typename Entries::Reader& read) {
+    if (partner_[i] != none) return;
+    const Strongest best = strongest(i, read, [&](std::uint32_t j) { return partner_[j] == none; });
+    if (best.node == none) return;
+    partner_[i] = best.node;
+    partner_[best.node] = i;
+    attracts_[i] = attracts_[best.node] = best.attracts;
+  }
+
+  std::vector<std::uint32_t> free_nodes() const {
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t i = 0; i < partner_.size(); ++i)
+      if (partner_[i] == none) result.push_back(i);
+    return result;
+  }
+
+  /// work(k, read) for k in [0, n) on all threads.
+  template <class Work>
+  void for_each_with_reader(const Threads& threads, std::size_t n, const Work& work) const {
+    for_blocks(threads, n, std::max<std::size_t>(1024, n / 16 + 1),
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                 typename Entries::Reader read(entries_, 0, entries_.size());
+                 for (std::size_t k = begin; k < end; ++k) work(k, read);
+               });
+  }
+
+  void match_between_blocks(const Threads& threads) {
+    const std::vector<std::uint32_t> free = free_nodes();
+    std::vector<std::uint8_t> has_choice(free.size());
+    for_each_with_reader(threads, free.size(), [&](std::size_t k, typename Entries::Reader& read) {
+      has_choice[k] = strongest(free[k], read, [&](std::uint32_t j) { return partner_[j] == none; }).node != none;
+    });
+    typename Entries::Reader read(entries_, 0, entries_.size());
+    for (std::size_t k = 0; k < free.size(); ++k)
+      if (has_choice[k]) match(free[k], read);
+  }
+
+  std::vector<Follower> followers(const Threads& threads) const {
+    const std::vector<std::uint32_t> free = free_nodes();
+    std::vector<Strongest> best(free.size());
+    for_each_with_reader(threads, free.size(), [&](std::size_t k, typename Entries::Reader& read) {
+      best[k] = strongest(free[k], read, [](std::uint32_t) { return true; });
+    });
+    std::vector<Follower> result;
+    for (std::size_t k = 0; k < free.size(); ++k)
+      if (best[k].node != none) result.push_back({free[k], best[k].node, best[k].attracts});
+    return result;
+  }
+
+  const Entries& entries_;
+  std::vector<std::uint32_t> partner_;
+  std::vector<std::int8_t> attracts_; ///< +1: moves with its partner, -1: against it
+  std::vector<float> scale_;
+};
 
 void list_members(Aggregation& a) {
   a.begin.assign(a.count + 1, 0);
@@ -90,82 +262,30 @@ struct RowBlock {
   std::vector<float> value;
 };
 
-/// Sums of one row by column, in a small table that is emptied after each row. Sums are formed in the order in
-/// which they are given.
-class RowSums {
- public:
-  RowSums() : slot_(512, none) {}
-
-  void add(std::uint32_t column, double value) {
-    std::size_t at = (column * 2654435769u) & (slot_.size() - 1);
-    while (slot_[at] != none && entry_[slot_[at]].column != column) at = (at + 1) & (slot_.size() - 1);
-    if (slot_[at] == none) {
-      slot_[at] = static_cast<std::uint32_t>(entry_.size());
-      entry_.push_back({column, value, std::fabs(value)});
-      place_.push_back(static_cast<std::uint32_t>(at));
-      if (2 * entry_.size() > slot_.size()) grow();
-      return;
-    }
-    Entry& entry = entry_[slot_[at]];
-    entry.sum += value;
-    entry.size += std::fabs(value);
-  }
-
-  /// Appends what does not cancel, columns increasing, and empties the table.
-  void move_to(RowBlock& rows) {
-    std::sort(entry_.begin(), entry_.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
-    for (const Entry& e : entry_) {
-      if (std::fabs(e.sum) <= 1e-7 * e.size) continue;
-      rows.column.push_back(e.column);
-      rows.value.push_back(static_cast<float>(e.sum));
-    }
-    for (const std::uint32_t at : place_) slot_[at] = none;
-    entry_.clear();
-    place_.clear();
-  }
-
- private:
-  struct Entry {
-    std::uint32_t column;
-    double sum, size;
-  };
-
-  void grow() {
-    slot_.assign(2 * slot_.size(), none);
-    for (std::uint32_t k = 0; k < entry_.size(); ++k) {
-      std::size_t at = (entry_[k].column * 2654435769u) & (slot_.size() - 1);
-      while (slot_[at] != none) at = (at + 1) & (slot_.size() - 1);
-      slot_[at] = k;
-      place_[k] = static_cast<std::uint32_t>(at);
-    }
-  }
-
-  std::vector<std::uint32_t> slot_; ///< entry numbers; a power of two
-  std::vector<Entry> entry_;
-  std::vector<std::uint32_t> place_; ///< slots that are taken
-};
-
 /// Rows of one block of aggregates; lengths go to row_length.
 void galerkin_block(const BorderedMatrix& m, const Aggregation& a, std::size_t first, std::size_t last, RowBlock& rows,
                     std::vector<std::uint64_t>& row_length, std::vector<double>& diagonal) {
-  RowSums sums;
+  RowSums sums(a.count);
   for (std::size_t g = first; g < last; ++g) {
     double self = 0;
     for (std::uint32_t k = a.begin[g]; k < a.begin[g + 1]; ++k) {
       const std::uint32_t i = a.member[k];
       self += m.diagonal[i];
       for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1]; ++e) {
-        const std::uint32_t j = m.column[e];
-        const double v = static_cast<double>(a.sign[i] == a.sign[j] ? m.value[e] : -m.value[e]);
-        if (a.aggregate[j] == g)
+        const std::uint32_t column = a.aggregate[m.column[e]];
+        const double v = EntriesOfAggregates::signed_entry(m, a, i, e);
+        if (column == g)
           self += v;
         else
-          sums.add(a.aggregate[j], v);
+          sums.add(column, v);
       }
     }
     diagonal[g] = self;
     const std::size_t before = rows.column.size();
-    sums.move_to(rows);
+    sums.take([&](std::uint32_t column, float value) {
+      rows.column.push_back(column);
+      rows.value.push_back(value);
+    });
     row_length[g + 1] = rows.column.size() - before;
   }
 }
@@ -173,28 +293,8 @@ void galerkin_block(const BorderedMatrix& m, const Aggregation& a, std::size_t f
 } // namespace
 
 Aggregation match_pairs(const BorderedMatrix& m, const Threads& threads) {
-  const std::uint32_t n = m.interior_size();
-  const Matching matching(m, threads);
-  Aggregation a;
-  a.aggregate.assign(n, none);
-  a.sign.assign(n, 1);
-  const auto relative = [](float entry) { return static_cast<std::int8_t>(entry <= 0 ? 1 : -1); }; // < 0 attracts
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t j = matching.partner(i);
-    if (j == none || j < i) continue;
-    a.aggregate[i] = a.aggregate[j] = a.count++;
-    a.sign[j] = relative(entry_between(m, i, j));
-  }
-  // A node without free neighbours joins its strongest neighbour, or coarsening would stall on stars. All
-  // its neighbours have partners: of two free neighbours one would have taken the other.
-  for (std::uint32_t i = 0; i < n; ++i) {
-    if (matching.partner(i) != none) continue;
-    const std::uint64_t e = matching.strongest(i);
-    if (e == Matching::no_entry) continue;
-    const std::uint32_t j = m.column[e];
-    a.aggregate[i] = a.aggregate[j];
-    a.sign[i] = static_cast<std::int8_t>(relative(m.value[e]) * a.sign[j]);
-  }
+  const EntriesOfNodes entries(m);
+  Aggregation a = Matching(entries, threads).aggregation(threads);
   list_members(a);
   return a;
 }
@@ -203,7 +303,7 @@ BorderedMatrix galerkin(const BorderedMatrix& matrix, const Aggregation& a, cons
   BorderedMatrix coarse;
   coarse.diagonal.resize(a.count);
   coarse.row_begin.assign(a.count + 1, 0);
-  constexpr std::size_t block = 4096;
+  const std::size_t block = std::max<std::size_t>(4096, a.count / 32 + 1); // each block has a table of all columns
   std::vector<RowBlock> blocks((a.count + block - 1) / block);
   for_blocks(threads, a.count, block, [&](std::size_t first, std::size_t last, std::size_t b) {
     galerkin_block(matrix, a, first, last, blocks[b], coarse.row_begin, coarse.diagonal);
@@ -235,13 +335,11 @@ Coarsening coarsen_by_pairs_twice(const BorderedMatrix& matrix, const Threads& t
   Coarsening result;
   Aggregation& a = result.aggregation;
   a = match_pairs(matrix, threads);
-  const BorderedMatrix pairs = galerkin(matrix, a, threads);
-  Aggregation second = match_pairs(pairs, threads);
+  const EntriesOfAggregates pairs(matrix, a);
+  Aggregation second = Matching(pairs, threads).aggregation(threads);
   // A pair without neighbours after the first round still is one unknown of the coarse level.
   for (std::uint32_t& g : second.aggregate)
     if (g == none) g = second.count++;
-  list_members(second);
-  result.matrix = galerkin(pairs, second, threads);
   for_each_index(threads, a.aggregate.size(), [&](std::size_t i) {
     if (a.aggregate[i] == none) return;
     const std::uint32_t g = a.aggregate[i];
@@ -250,6 +348,7 @@ Coarsening coarsen_by_pairs_twice(const BorderedMatrix& matrix, const Threads& t
   });
   a.count = second.count;
   list_members(a);
+  result.matrix = galerkin(matrix, a, threads);
   return result;
 }
 

@@ -34,15 +34,6 @@ void multiply(const BorderedMatrix& matrix, const Vector& x, Vector& y, const Th
     y[matrix.interior_size() + k] = border_row_product(matrix, x, k, threads);
 }
 
-void residual(const BorderedMatrix& matrix, const Vector& b, const Vector& x, Vector& r, const Threads& threads) {
-  r.resize(matrix.size());
-  for_each_index(threads, matrix.interior_size(), [&](std::size_t i) { r[i] = b[i] - row_product(matrix, x, i); });
-  for (std::uint32_t k = 0; k < matrix.border_size(); ++k) {
-    const std::size_t z = matrix.interior_size() + k;
-    r[z] = b[z] - border_row_product(matrix, x, k, threads);
-  }
-}
-
 double inner_product(const Vector& a, const Vector& b, const Threads& threads) {
   return sum_blocks<double>(threads, a.size(), [&](std::size_t begin, std::size_t end) {
     double part = 0;

@@ -33,8 +33,6 @@ using FloatVector = std::vector<float>;
 
 /// y = M x
 void multiply(const BorderedMatrix& matrix, const Vector& x, Vector& y, const Threads& threads);
-/// r = b - M x
-void residual(const BorderedMatrix& matrix, const Vector& b, const Vector& x, Vector& r, const Threads& threads);
 
 /// Σ a_i b_i in block order.
 double inner_product(const Vector& a, const Vector& b, const Threads& threads);

@@ -3,6 +3,8 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include "numerics/aggregation.h"
 #include "numerics/dense.h"
@@ -23,17 +25,50 @@ float border_part(const BorderedMatrix& m, const FloatVector& x, std::size_t i) 
   return sum;
 }
 
-/// The first sweep, from x = 0: only what was set earlier in the same block counts. The rows' columns increase.
+/// Σ value[e] x[column[e]] over entries [begin, end).
+float product(const BorderedMatrix& m, std::uint64_t begin, std::uint64_t end, const FloatVector& x) {
+  float sum = 0;
+  for (std::uint64_t e = begin; e < end; ++e) sum += m.value[e] * x[m.column[e]];
+  return sum;
+}
+
+/// Puts the entries that a forward sweep from zero reads in front of each row: earlier columns of the same block.
+/// \returns how many they are, for each row
+std::vector<std::uint32_t> swept_entries_first(BorderedMatrix& m, const Threads& threads) {
+  std::vector<std::uint32_t> count(m.interior_size());
+  for_blocks(threads, m.interior_size(), relaxation_block, [&](std::size_t begin, std::size_t end, std::size_t) {
+    std::vector<std::pair<std::uint32_t, float>> others;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto is_swept = [&](std::uint64_t e) { return m.column[e] >= begin && m.column[e] < i; };
+      const std::uint64_t last = m.row_begin[i + 1];
+      std::uint64_t to = m.row_begin[i];
+      while (to < last && is_swept(to)) ++to;
+      std::uint64_t later = to;
+      while (later < last && !is_swept(later)) ++later;
+      if (later < last) { // most rows are in order
+        others.clear();
+        for (std::uint64_t e = to; e < last; ++e) {
+          if (is_swept(e)) {
+            m.column[to] = m.column[e];
+            m.value[to++] = m.value[e];
+          } else
+            others.emplace_back(m.column[e], m.value[e]);
+        }
+        for (std::size_t k = 0; k < others.size(); ++k) std::tie(m.column[to + k], m.value[to + k]) = others[k];
+      }
+      count[i] = static_cast<std::uint32_t>(to - m.row_begin[i]);
+    }
+  });
+  return count;
+}
+
+/// The first sweep, from x = 0: only what was set earlier in the same block counts.
 void relax_from_zero(const SignedMultigrid::Level& level, const FloatVector& b, FloatVector& x,
                      const Threads& threads) {
   const BorderedMatrix& m = level.matrix;
   for_blocks(threads, m.interior_size(), relaxation_block, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i) {
-      float sum = b[i];
-      for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1] && m.column[e] < i; ++e)
-        if (m.column[e] >= begin) sum -= m.value[e] * x[m.column[e]];
-      x[i] = sum * level.inverse[i];
-    }
+    for (std::size_t i = begin; i < end; ++i)
+      x[i] = (b[i] - product(m, m.row_begin[i], m.row_begin[i] + level.swept[i], x)) * level.inverse[i];
   });
 }
 
@@ -86,7 +121,7 @@ SignedMultigrid::SignedMultigrid(SignedMultigrid&&) noexcept = default;
 
 SignedMultigrid::SignedMultigrid(BorderedMatrix matrix, Vector mass, const Threads& threads)
     : coarsest_(std::make_unique<Coarsest>()) {
-  levels_.push_back({std::move(matrix), std::move(mass), {}, {}});
+  levels_.push_back({std::move(matrix), std::move(mass), {}, {}, {}});
   while (levels_.back().matrix.interior_size() > coarsest_size) {
     Level& fine = levels_.back();
     Coarsening next = coarsen_by_pairs_twice(fine.matrix, threads);
@@ -107,6 +142,7 @@ SignedMultigrid::SignedMultigrid(BorderedMatrix matrix, Vector mass, const Threa
       const double d = fine.matrix.diagonal[i];
       fine.inverse[i] = d > 0 ? static_cast<float>(1 / d) : 0.0f;
     });
+    fine.swept = swept_entries_first(fine.matrix, threads);
     levels_.push_back(std::move(coarse));
   }
   const BorderedMatrix& last = levels_.back().matrix;
@@ -139,15 +175,15 @@ SignedMultigrid::Workspace SignedMultigrid::workspace() const {
   return result;
 }
 
-/// Pᵀ (b - M x). The residual is written down first: aggregates are scattered, and rows want to be streamed.
+/// Pᵀ (b - M x) after a forward sweep from zero, which used up b with the diagonal and the entries it read. The
+/// residual is written down first: aggregates are scattered, and rows want to be streamed.
 void SignedMultigrid::restrict_residual(std::size_t level, const FloatVector& b, const FloatVector& x, FloatVector& r,
                                         FloatVector& coarse, const Threads& threads) const {
-  const BorderedMatrix& m = levels_[level].matrix;
-  const Aggregation& a = levels_[level].aggregation;
+  const Level& here = levels_[level];
+  const BorderedMatrix& m = here.matrix;
+  const Aggregation& a = here.aggregation;
   for_each_index(threads, m.interior_size(), [&](std::size_t i) {
-    float sum = b[i] - static_cast<float>(m.diagonal[i]) * x[i] - border_part(m, x, i);
-    for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1]; ++e) sum -= m.value[e] * x[m.column[e]];
-    r[i] = sum;
+    r[i] = -border_part(m, x, i) - product(m, m.row_begin[i] + here.swept[i], m.row_begin[i + 1], x);
   });
   for_each_index(threads, a.count, [&](std::size_t g) {
     float sum = 0;
@@ -163,7 +199,7 @@ void SignedMultigrid::restrict_residual(std::size_t level, const FloatVector& b,
                                              m.corner[s][s] * static_cast<double>(x[n + s]));
 }
 
-void SignedMultigrid::add_correction(std::size_t level, const FloatVector& coarse, FloatVector& x, FloatVector* copy,
+void SignedMultigrid::add_correction(std::size_t level, const FloatVector& coarse, FloatVector& x, FloatVector& copy,
                                      const Threads& threads) const {
   const Aggregation& a = levels_[level].aggregation;
   const std::size_t n = levels_[level].matrix.interior_size();
@@ -172,7 +208,7 @@ void SignedMultigrid::add_correction(std::size_t level, const FloatVector& coars
       const float c = over_correction * coarse[a.aggregate[i]];
       x[i] += a.sign[i] > 0 ? c : -c;
     }
-    if (copy) (*copy)[i] = x[i];
+    copy[i] = x[i];
   });
   for (std::uint32_t s = 0; s < levels_[level].matrix.border_size(); ++s)
     x[n + s] += over_correction * coarse[a.count + s];
@@ -197,13 +233,9 @@ void SignedMultigrid::cycle(std::size_t level, const FloatVector& b, FloatVector
   for (std::size_t z = here.matrix.interior_size(); z < x.size(); ++z) x[z] = 0;
   relax_from_zero(here, b, x, threads);
   relax_border(here.matrix, b, x, threads);
-  // Twice on small levels (W-cycle): piecewise constants under-correct, and the small levels cost little.
-  const int visits = level == 0 ? 1 : 2;
-  for (int visit = 0; visit < visits; ++visit) {
-    restrict_residual(level, b, x, old, coarse_b, threads);
-    cycle(level + 1, coarse_b, coarse_x, workspace, threads);
-    add_correction(level, coarse_x, x, visit + 1 == visits ? &old : nullptr, threads);
-  }
+  restrict_residual(level, b, x, old, coarse_b, threads);
+  cycle(level + 1, coarse_b, coarse_x, workspace, threads);
+  add_correction(level, coarse_x, x, old, threads);
   relax_border(here.matrix, b, x, threads);
   relax_backward(here, b, old, x, threads);
 }

@@ -26,6 +26,8 @@ class SignedMultigrid {
     Vector mass;             ///< diagonal of Pᵀ D P, interior then border; empty if D was
     Aggregation aggregation; ///< of the interior on the next level; empty on the last
     FloatVector inverse;     ///< 1 / diagonal of A; 0 where that is not positive; empty on the last
+    /// Entries at the front of each row that a forward sweep from zero reads; empty on the last.
+    std::vector<std::uint32_t> swept;
   };
   /// The vectors of one cycle, reused from cycle to cycle.
   struct Workspace {
@@ -58,7 +60,7 @@ class SignedMultigrid {
  private:
   void restrict_residual(std::size_t level, const FloatVector& b, const FloatVector& x, FloatVector& r,
                          FloatVector& coarse, const Threads& threads) const;
-  void add_correction(std::size_t level, const FloatVector& coarse, FloatVector& x, FloatVector* copy,
+  void add_correction(std::size_t level, const FloatVector& coarse, FloatVector& x, FloatVector& copy,
                       const Threads& threads) const;
   void solve_coarsest(const FloatVector& b, FloatVector& x) const;
 

@@ -23,7 +23,7 @@ constexpr std::size_t region_per_vertex = 400;
 // A change may leave so many specks behind; the component filter takes them.
 constexpr std::int64_t tolerated_specks = 2;
 // Loops wider than so many grid spacings are no noise.
-constexpr double extent_in_grid_spacings = 64;
+constexpr double extent_in_grid_spacings = 96;
 // Tetrahedra with larger values are as good as labelled by the first stage.
 constexpr float sure = 0.8f;
 constexpr int max_rounds = 6;

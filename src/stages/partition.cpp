@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // §3.2 and §3.4: from signed graphs to one number per node whose sign is the side.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,9 @@
 
 namespace eigencrust {
 namespace {
+
+// So many times more signs may change in the second stage: its last steps move single tetrahedra (docs/decisions/0019).
+constexpr double harmonic_slack = 2;
 
 IterationControl control_of(const SolverOptions& options, const Checkpoint& checkpoint) {
   IterationControl control;
@@ -130,6 +134,7 @@ Partition partition_harmonic(SignedGraph graph, const SolverOptions& options, co
   const SignedMultigrid hierarchy(std::move(matrix), {}, threads);
   IterationControl control = control_of(options, checkpoint);
   control.stable_residual = 1e-4; // docs/decisions/0009
+  control.stable_share = std::min(1.0, harmonic_slack * options.stable_share);
   const IterationResult result = conjugate_gradients(hierarchy, std::move(rhs), control, threads);
   Partition partition;
   take_figures(result, partition);

@@ -13,7 +13,32 @@ namespace {
 constexpr std::uint32_t no_node = NodeIndex::none;
 constexpr std::uint32_t outside_node = no_node - 1; ///< collapsed into the outside supernode
 constexpr std::uint32_t inside_node = no_node - 2;
-constexpr std::size_t block = 2048;
+
+/// Long blocks: each has a table of all samples or poles.
+std::size_t block_length(std::size_t items) { return std::max<std::size_t>(2048, items / 64 + 1); }
+
+/// A list of different numbers below a bound, made anew again and again.
+class DistinctNumbers {
+ public:
+  explicit DistinctNumbers(std::size_t bound) : last_list_(bound, 0) {}
+
+  void clear() {
+    ++list_;
+    numbers_.clear();
+  }
+  void add(std::uint32_t number) {
+    if (last_list_[number] == list_) return;
+    last_list_[number] = list_;
+    numbers_.push_back(number);
+  }
+  /// In the order of their first appearance.
+  [[nodiscard]] const std::vector<std::uint32_t>& numbers() const { return numbers_; }
+
+ private:
+  std::vector<std::uint32_t> last_list_; ///< that holds the number
+  std::vector<std::uint32_t> numbers_;
+  std::uint32_t list_ = 0;
+};
 
 /// Compressed lists of 32-bit numbers.
 struct Lists {
@@ -24,20 +49,20 @@ struct Lists {
   }
 };
 
-/// Delaunay neighbours of every sample, without cube corners, increasing.
+/// Delaunay neighbours of every sample, without cube corners.
 Lists sample_neighbours(const Tetrahedralization& t, const VertexStars& stars, const Threads& threads) {
   Lists lists;
   lists.begin.assign(t.sample_count + 1, 0);
+  const std::size_t block = block_length(t.sample_count);
   std::vector<std::vector<std::uint32_t>> blocks((t.sample_count + block - 1) / block);
   for_blocks(threads, t.sample_count, block, [&](std::size_t first, std::size_t last, std::size_t b) {
-    std::vector<std::uint32_t> around;
+    DistinctNumbers distinct(t.sample_count);
     for (std::size_t s = first; s < last; ++s) {
-      around.clear();
+      distinct.clear();
       for (const TetrahedronIndex tetrahedron : stars[SampleIndex{static_cast<std::uint32_t>(s)}])
         for (const SampleIndex v : t.tetrahedra[tetrahedron])
-          if (v.value != s && !t.is_corner(v)) around.push_back(v.value);
-      std::sort(around.begin(), around.end());
-      around.erase(std::unique(around.begin(), around.end()), around.end());
+          if (v.value != s && !t.is_corner(v)) distinct.add(v.value);
+      const std::vector<std::uint32_t>& around = distinct.numbers();
       lists.begin[s + 1] = around.size();
       blocks[b].insert(blocks[b].end(), around.begin(), around.end());
     }
@@ -89,6 +114,12 @@ double same_weight(const Sphere& a, const Sphere& b) {
   return std::exp(4 - 4 * std::max(cosine, -1.0));
 }
 
+/// Rows one after the other.
+struct Rows {
+  std::vector<std::uint32_t> column;
+  std::vector<float> weight;
+};
+
 /// Assembles rows one by one from the stars: no pair list, no global sort.
 class RowAssembler {
  public:
@@ -99,22 +130,19 @@ class RowAssembler {
         neighbours_(neighbours),
         samples_of_(samples_of),
         node_of_(node_of),
-        isolated_(isolated) {}
-
-  std::vector<std::uint32_t> column;
-  std::vector<float> weight;
+        isolated_(isolated),
+        candidates_(node_of.size()) {}
 
   /// Appends the row of pole p; sums to supernodes are returned through `super`.
-  void append(std::uint32_t p, std::array<double, 2>& super) {
+  void append(std::uint32_t p, Rows& rows, std::array<double, 2>& super) {
     collect(p);
     super = {0, 0};
-    std::size_t o = 0;
     row_.clear();
-    for (const std::uint32_t q : candidates_) {
-      while (o < opposite_.size() && opposite_[o].pole < q) ++o;
-      const bool is_opposite = o < opposite_.size() && opposite_[o].pole == q;
-      const double w = is_opposite ? weight_of_pair(opposite_[o].sample, p, q)
-                                   : same_weight(poles_.sphere.raw()[p], poles_.sphere.raw()[q]);
+    for (const std::uint32_t q : candidates_.numbers()) {
+      const auto opposite =
+          std::find_if(opposite_.begin(), opposite_.end(), [&](const Opposite& o) { return o.pole == q; });
+      const double w = opposite != opposite_.end() ? weight_of_pair(opposite->sample, p, q)
+                                                   : same_weight(poles_.sphere.raw()[p], poles_.sphere.raw()[q]);
       if (w == 0) continue;
       const std::uint32_t node = node_of_[q];
       if (node == outside_node)
@@ -124,10 +152,10 @@ class RowAssembler {
       else
         row_.emplace_back(node, static_cast<float>(w));
     }
-    // Nodes are numbered in the order of poles, so the row is sorted already.
+    std::sort(row_.begin(), row_.end());
     for (const auto& [node, w] : row_) {
-      column.push_back(node);
-      weight.push_back(w);
+      rows.column.push_back(node);
+      rows.weight.push_back(w);
     }
   }
 
@@ -153,7 +181,7 @@ class RowAssembler {
     candidates_.clear();
     opposite_.clear();
     const auto add = [&](PoleIndex q) {
-      if (q.valid() && q.value != p && node_of_[q.value] != no_node) candidates_.push_back(q.value);
+      if (q.valid() && q.value != p && node_of_[q.value] != no_node) candidates_.add(q.value);
     };
     for (const std::uint32_t s : samples_of_[p]) {
       const PolePair& pair = poles_.of_sample.raw()[s];
@@ -165,8 +193,6 @@ class RowAssembler {
         add(poles_.of_sample.raw()[neighbour].second);
       }
     }
-    std::sort(candidates_.begin(), candidates_.end());
-    candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
     // Pairs chosen by several samples count once, measured at the smallest of them.
     std::sort(opposite_.begin(), opposite_.end());
     opposite_.erase(std::unique(opposite_.begin(), opposite_.end(),
@@ -179,7 +205,7 @@ class RowAssembler {
   const Lists &neighbours_, &samples_of_;
   const std::vector<std::uint32_t>& node_of_;
   std::span<const float> isolated_;
-  std::vector<std::uint32_t> candidates_;
+  DistinctNumbers candidates_;
   std::vector<Opposite> opposite_;
   std::vector<std::pair<std::uint32_t, float>> row_;
 };
@@ -219,13 +245,14 @@ PoleGraph pole_graph(const Tetrahedralization& t, const VertexStars& stars, cons
   graph.row_begin.assign(nodes + 1, 0);
   graph.supernodes.assign(supernodes, {std::vector<float>(nodes, 0.0f)});
   graph.supernode_weight.assign(supernodes, std::vector<double>(supernodes, 0.0));
-  std::vector<RowAssembler> blocks((nodes + block - 1) / block,
-                                   RowAssembler(t, poles, neighbours, samples_of, node_of, isolated));
+  const std::size_t block = block_length(nodes);
+  std::vector<Rows> blocks((nodes + block - 1) / block);
   for_blocks(threads, nodes, block, [&](std::size_t first, std::size_t last, std::size_t b) {
+    RowAssembler assembler(t, poles, neighbours, samples_of, node_of, isolated);
     std::array<double, 2> super{};
     for (std::size_t i = first; i < last; ++i) {
       const std::size_t before = blocks[b].column.size();
-      blocks[b].append(result.pole.raw()[i].value, super);
+      assembler.append(result.pole.raw()[i].value, blocks[b], super);
       graph.row_begin[i + 1] = blocks[b].column.size() - before;
       for (std::size_t k = 0; k < supernodes; ++k) graph.supernodes[k].weight[i] = static_cast<float>(super[k]);
     }
@@ -237,8 +264,7 @@ PoleGraph pole_graph(const Tetrahedralization& t, const VertexStars& stars, cons
     const auto at = static_cast<std::ptrdiff_t>(graph.row_begin[b * block]);
     std::copy(blocks[b].column.begin(), blocks[b].column.end(), graph.column.begin() + at);
     std::copy(blocks[b].weight.begin(), blocks[b].weight.end(), graph.weight.begin() + at);
-    blocks[b].column = {};
-    blocks[b].weight = {};
+    blocks[b] = {};
   });
   if (supernodes == 2) repel_supernodes(graph);
   return result;

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Dense>
+#include <set>
 
 #include "graphs.h"
 #include "numerics/aggregation.h"
@@ -98,11 +99,9 @@ TEST(BorderedMatrix, ProductsEqualTheDenseOnes) {
   const MatrixXd dense = to_dense(m);
   const Vector x = random_vector(m.size(), 3), b = random_vector(m.size(), 4);
   for (const unsigned threads : {1u, 3u}) {
-    Vector y, r;
+    Vector y;
     multiply(m, x, y, Threads(threads));
-    residual(m, b, x, r, Threads(threads));
     EXPECT_LT((to_eigen(y) - dense * to_eigen(x)).norm(), 1e-12 * dense.norm());
-    EXPECT_LT((to_eigen(r) - (to_eigen(b) - dense * to_eigen(x))).norm(), 1e-12 * dense.norm());
   }
   const Vector d = full_diagonal(m);
   EXPECT_NEAR(inner_product(x, b, Threads(1)), to_eigen(x).dot(to_eigen(b)), 1e-13);
@@ -167,13 +166,13 @@ TEST(Galerkin, EqualsTheDenseTripleProduct) {
   const BorderedMatrix coarse = galerkin(m, a, Threads(2));
   EXPECT_LT((to_dense(coarse) - expected).norm(), 1e-6 * expected.norm());
   EXPECT_LT((to_dense(coarsening.matrix) - expected).norm(), 1e-6 * expected.norm());
-  for (std::uint32_t g = 0; g < a.count; ++g)
-    for (std::uint64_t e = coarse.row_begin[g]; e < coarse.row_begin[g + 1]; ++e) {
-      EXPECT_NE(coarse.column[e], g);
-      if (e > coarse.row_begin[g]) {
-        EXPECT_LT(coarse.column[e - 1], coarse.column[e]);
-      }
-    }
+  for (std::uint32_t g = 0; g < a.count; ++g) {
+    const std::vector<std::uint32_t> columns(
+        coarse.column.begin() + static_cast<std::ptrdiff_t>(coarse.row_begin[g]),
+        coarse.column.begin() + static_cast<std::ptrdiff_t>(coarse.row_begin[g + 1]));
+    EXPECT_THAT(columns, testing::Not(testing::Contains(g)));
+    EXPECT_EQ(std::set(columns.begin(), columns.end()).size(), columns.size());
+  }
 }
 
 TEST(Aggregation, IsTheSameOnAnyNumberOfThreads) {
