@@ -144,11 +144,11 @@ void second_half(const PointCloud& cloud, const FirstHalf& half, FirstHalf* spen
   }
   if (report.sight_lines > 0)
     describe_contradictions(contradicting_lines(half.crossings, labels.labels, threads), run, report);
-  Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels); });
+  Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels, threads); });
   run.product("surface", [&] { return snapshot_of_surface(t, surface); });
   run.stage("support", [&] { measure_support(t, labels, around, grid, surface, threads); });
   report.dropped_components =
-      run.stage("components", [&] { return filter_components(surface, options.components, t, grid); });
+      run.stage("components", [&] { return filter_components(surface, options.components, t, grid, threads); });
   require_surface(surface);
   const bool one_sided = options.facade.has_value() || report.one_sided.has_value();
   std::vector<std::uint8_t> unsupported = run.stage(
@@ -156,7 +156,7 @@ void second_half(const PointCloud& cloud, const FirstHalf& half, FirstHalf* spen
   describe_unsupported(surface, unsupported, run, report);
   if (options.trim) {
     trim(std::move(unsupported), surface);
-    for (const DroppedComponent& piece : filter_components(surface, options.components, t, grid))
+    for (const DroppedComponent& piece : filter_components(surface, options.components, t, grid, threads))
       report.dropped_components.push_back(piece);
     require_trimmed(surface);
   }
@@ -174,6 +174,7 @@ void second_half(const PointCloud& cloud, const FirstHalf& half, FirstHalf* spen
         checks.self_intersections && options.smooth == 0 && is_exact_translation(t, cloud, threads);
     ValidateOptions needed = checks;
     needed.self_intersections = checks.self_intersections && !cannot_cross;
+    needed.merge_equal_vertices = checks.merge_equal_vertices && !cannot_cross; // samples differ, so vertices do
     MeshSummary summary = validate(result.mesh, needed);
     if (cannot_cross) summary.self_intersections = 0;
     return summary;

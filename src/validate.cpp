@@ -121,7 +121,8 @@ void tally_vertices(std::span<const Triangle> triangles, std::size_t vertices, C
   // Triangles component by component, so that one mark per vertex tells whether it was met there.
   std::vector<std::uint32_t> order(triangles.size()), seen_in(vertices, none);
   std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return component[a] < component[b]; });
+  if (tallies.size() > 1)
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return component[a] < component[b]; });
   for (const std::uint32_t t : order)
     for (const std::uint32_t v : triangles[t])
       if (std::exchange(seen_in[v], component[t]) != component[t]) ++tallies[component[t]].vertices;
@@ -285,10 +286,10 @@ TriangleMesh merge_equal_vertices(const TriangleMesh& mesh) {
   return result;
 }
 
-std::vector<std::uint32_t> triangle_components(const TriangleMesh& mesh) {
+std::vector<std::uint32_t> triangle_components(const TriangleMesh& mesh, unsigned threads) {
   require_valid_indices(mesh, "triangle_components");
   DisjointSets sets(mesh.triangles.size());
-  const std::vector<Side> sides = sorted_sides(mesh.triangles, mesh.vertices.size(), Threads(1));
+  const std::vector<Side> sides = sorted_sides(mesh.triangles, mesh.vertices.size(), Threads(threads));
   for_each_edge(sides, [&](std::span<const Side> edge) {
     for (const Side& s : edge) sets.unite(edge[0].triangle(), s.triangle());
   });

@@ -241,7 +241,7 @@ struct Surface {
   std::vector<TetrahedronIndex> inside; ///< the tetrahedron behind each triangle
   std::vector<float> support;           ///< of each triangle, see measure_support
 };
-Surface extract_surface(const Tetrahedralization& tetrahedralization, const Labels& labels);
+Surface extract_surface(const Tetrahedralization& tetrahedralization, const Labels& labels, const Threads& threads);
 
 /// How well the samples bear out each triangle, in [0, 1]: min(1, 2.5 h / e) (1 + min(1, c)) / 2, where e is its
 /// longest edge, h the mean over its vertices of the local spacing (of isolated ones: the typical one) or of the grid
@@ -255,7 +255,7 @@ void measure_support(const Tetrahedralization& tetrahedralization, const FinalLa
 /// \param grid_spacing ℓ of each sample; may be empty
 std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComponents& keep,
                                                 const Tetrahedralization& tetrahedralization,
-                                                std::span<const float> grid_spacing);
+                                                std::span<const float> grid_spacing, const Threads& threads);
 
 /// The triangles that the samples do not bear out (1): their support is below 1/4, or their longest edge exceeds 10
 /// times the smallest local spacing of their vertices (of isolated ones: the typical one), or no line of sight of

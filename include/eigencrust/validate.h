@@ -61,6 +61,6 @@ MeshSummary validate(const TriangleMesh& mesh, const ValidateOptions& options = 
 TriangleMesh merge_equal_vertices(const TriangleMesh& mesh);
 
 /// Component number of every triangle (joined along edges), components numbered by first triangle.
-std::vector<std::uint32_t> triangle_components(const TriangleMesh& mesh);
+std::vector<std::uint32_t> triangle_components(const TriangleMesh& mesh, unsigned threads = 1);
 
 } // namespace eigencrust

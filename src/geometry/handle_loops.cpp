@@ -2,6 +2,7 @@
 #include "geometry/handle_loops.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace eigencrust {
 namespace {
@@ -62,17 +63,42 @@ Forest breadth_first(const std::vector<Edge>& edges, std::size_t vertices) {
   return forest;
 }
 
-/// Where the two paths to the root meet.
-std::uint32_t meeting(const Forest& forest, std::uint32_t a, std::uint32_t b) {
-  while (a != b) {
+/// Where the two paths to the root meet, if a loop of at most `longest` edges leads there; else none.
+std::uint32_t meeting(const Forest& forest, std::uint32_t a, std::uint32_t b, std::size_t longest) {
+  for (std::size_t length = 1; length <= longest; ++length) {
+    if (a == b) return a;
     std::uint32_t& deeper = forest.depth[a] >= forest.depth[b] ? a : b;
     deeper = forest.parent[deeper];
   }
-  return a;
+  return none;
+}
+
+/// For each edge off the trees the length of its loop; longest + 1 for all longer ones, 0 for edges of the trees.
+std::vector<std::uint32_t> loop_lengths(const std::vector<Edge>& edges, const Forest& forest, std::uint32_t longest,
+                                        const Threads& threads) {
+  std::vector<std::uint32_t> length(edges.size());
+  for_each_index(threads, edges.size(), [&](std::size_t i) {
+    const Edge& e = edges[i];
+    if (forest.parent[e.low] == e.high || forest.parent[e.high] == e.low) return;
+    const std::uint32_t top = meeting(forest, e.low, e.high, longest);
+    length[i] = top == none ? longest + 1 : forest.depth[e.low] + forest.depth[e.high] + 1 - 2 * forest.depth[top];
+  });
+  return length;
+}
+
+/// Edges off the trees, those with the longest loops first, then by their number.
+std::vector<std::uint32_t> by_length(const std::vector<std::uint32_t>& length, std::uint32_t longest) {
+  std::vector<std::size_t> begin(longest + 3, 0); // by longest + 1 - length
+  for (const std::uint32_t l : length) ++begin[longest + 2 - l];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::uint32_t> edges(begin[longest + 1]);
+  for (std::uint32_t i = 0; i < length.size(); ++i)
+    if (length[i] > 0) edges[begin[longest + 1 - length[i]]++] = i;
+  return edges;
 }
 
 std::vector<std::uint32_t> loop_through(const Forest& forest, const Edge& edge) {
-  const std::uint32_t top = meeting(forest, edge.low, edge.high);
+  const std::uint32_t top = meeting(forest, edge.low, edge.high, forest.depth.size());
   std::vector<std::uint32_t> loop;
   for (std::uint32_t v = edge.low; v != top; v = forest.parent[v]) loop.push_back(v);
   loop.push_back(top);
@@ -85,7 +111,7 @@ std::vector<std::uint32_t> loop_through(const Forest& forest, const Edge& edge) 
 } // namespace
 
 std::vector<std::vector<std::uint32_t>> handle_loops(std::span<const Triangle> triangles, std::size_t vertices,
-                                                     const Threads& threads) {
+                                                     std::uint32_t longest, const Threads& threads) {
   const std::vector<Edge> edges = edges_of(triangles, vertices, threads);
   const Forest forest = breadth_first(edges, vertices);
   // Euler's formula for closed surfaces: nothing to look for where every piece is a sphere.
@@ -95,28 +121,15 @@ std::vector<std::vector<std::uint32_t>> handle_loops(std::span<const Triangle> t
   if (edges.size() * 2 == triangles.size() * 3 && euler == 2 * (static_cast<std::int64_t>(forest.trees) - isolated))
     return {};
   // The cotree takes the edges with the longest loops, so that the shortest are left.
-  struct Candidate {
-    std::uint32_t length, edge;
-  };
-  std::vector<Candidate> candidates;
-  candidates.reserve(edges.size());
-  for (std::uint32_t i = 0; i < edges.size(); ++i) {
-    const Edge& e = edges[i];
-    if (forest.parent[e.low] == e.high || forest.parent[e.high] == e.low) continue;
-    const std::uint32_t top = meeting(forest, e.low, e.high);
-    candidates.push_back({forest.depth[e.low] + forest.depth[e.high] + 1 - 2 * forest.depth[top], i});
-  }
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return a.length > b.length || (a.length == b.length && a.edge < b.edge);
-  });
+  const std::vector<std::uint32_t> length = loop_lengths(edges, forest, longest, threads);
   DisjointSets cotree(triangles.size());
   std::vector<std::vector<std::uint32_t>> loops;
-  for (const Candidate& c : candidates) {
-    const Edge& e = edges[c.edge];
-    if (cotree.find(e.left) == cotree.find(e.right))
-      loops.push_back(loop_through(forest, e));
-    else
+  for (const std::uint32_t i : by_length(length, longest)) {
+    const Edge& e = edges[i];
+    if (cotree.find(e.left) != cotree.find(e.right))
       cotree.unite(e.left, e.right);
+    else if (length[i] <= longest)
+      loops.push_back(loop_through(forest, e));
   }
   std::reverse(loops.begin(), loops.end());
   return loops;

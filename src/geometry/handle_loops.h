@@ -15,7 +15,8 @@ namespace eigencrust {
 /// cotree, Eppstein 2003; the shortest are preferred as in Erickson and Whittlesey 2005). Each is a list
 /// of vertices. Shortest first; none for spheres.
 /// \param triangles closed and orientable; each edge in two triangles
+/// \param longest   loops of more edges are left out
 std::vector<std::vector<std::uint32_t>> handle_loops(std::span<const Triangle> triangles, std::size_t vertices,
-                                                     const Threads& threads);
+                                                     std::uint32_t longest, const Threads& threads);
 
 } // namespace eigencrust

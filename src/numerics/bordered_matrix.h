@@ -33,6 +33,7 @@ using FloatVector = std::vector<float>;
 
 /// y = M x
 void multiply(const BorderedMatrix& matrix, const Vector& x, Vector& y, const Threads& threads);
+void multiply(const BorderedMatrix& matrix, const FloatVector& x, Vector& y, const Threads& threads);
 
 /// Σ a_i b_i in block order.
 double inner_product(const Vector& a, const Vector& b, const Threads& threads);

@@ -265,8 +265,9 @@ IterationResult conjugate_gradients(const SignedMultigrid& hierarchy, Vector b, 
   IterationResult result;
   const double size = std::sqrt(inner_product(b, b, threads));
   const std::size_t n = b.size();
-  Vector r = std::move(b), p(n, 0), mp;
-  FloatVector single(r.begin(), r.end()), z;
+  // Directions are single, too: x and r follow the direction as it is, so rounding it costs no accuracy.
+  Vector r = std::move(b), mp;
+  FloatVector p(n, 0), single(r.begin(), r.end()), z;
   result.x.assign(n, 0);
   if (size == 0) {
     result.status = SolverStatus::converged;
@@ -290,16 +291,22 @@ IterationResult conjugate_gradients(const SignedMultigrid& hierarchy, Vector b, 
       return part;
     });
     const double beta = result.steps == 0 ? 0 : rz_new / rz;
-    for_each_index(threads, p.size(), [&](std::size_t i) { p[i] = static_cast<double>(z[i]) + beta * p[i]; });
+    for_each_index(threads, p.size(), [&](std::size_t i) {
+      p[i] = static_cast<float>(static_cast<double>(z[i]) + beta * static_cast<double>(p[i]));
+    });
     rz = rz_new;
     multiply(m, p, mp, threads);
-    const double alpha = rz / inner_product(p, mp, threads);
+    const double alpha = rz / sum_blocks<double>(threads, n, [&](std::size_t begin, std::size_t end) {
+                           double part = 0;
+                           for (std::size_t i = begin; i < end; ++i) part += static_cast<double>(p[i]) * mp[i];
+                           return part;
+                         });
     if (!std::isfinite(alpha)) break;
     const Progress step = sum_blocks<Progress>(threads, p.size(), [&](std::size_t begin, std::size_t end) {
       Progress part;
       for (std::size_t i = begin; i < end; ++i) {
         const double before = result.x[i];
-        result.x[i] += alpha * p[i];
+        result.x[i] += alpha * static_cast<double>(p[i]);
         r[i] -= alpha * mp[i];
         single[i] = static_cast<float>(r[i]);
         part.square += r[i] * r[i];

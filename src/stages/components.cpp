@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include <eigencrust/stages.h>
 #include <eigencrust/validate.h>
 
+#include "parallel/threads.h"
 #include "stages/drop_triangles.h"
 
 namespace eigencrust {
@@ -29,19 +31,20 @@ double area(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& v) {
   return norm(cross(mesh.vertices[v[1]] - mesh.vertices[v[0]], mesh.vertices[v[2]] - mesh.vertices[v[0]])) / 2;
 }
 
-void measure(const Surface& surface, std::span<const float> grid_spacing, Piece& piece) {
+/// \param met vertices that this function has met; marks those of the piece
+void measure(const Surface& surface, std::span<const float> grid_spacing, std::uint32_t number, Piece& piece,
+             std::vector<std::uint32_t>& met) {
   std::vector<std::uint32_t> vertices;
   double supported = 0, whole = 0;
   for (const std::uint32_t i : piece.triangles) {
     const auto& v = surface.mesh.triangles[i];
-    vertices.insert(vertices.end(), v.begin(), v.end());
+    for (const std::uint32_t corner : v)
+      if (std::exchange(met[corner], number) != number) vertices.push_back(corner);
     const double a = area(surface.mesh, v);
     supported += a * static_cast<double>(surface.support[i]);
     whole += a;
   }
   piece.support = whole > 0 ? supported / whole : 0;
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   piece.vertices = static_cast<std::uint32_t>(vertices.size());
   Box3 box;
   double noise = 0;
@@ -53,14 +56,15 @@ void measure(const Surface& surface, std::span<const float> grid_spacing, Piece&
   piece.extent = box.diagonal() / noise; // no noise: infinite
 }
 
-std::vector<Piece> measure_pieces(const Surface& surface, std::span<const float> grid_spacing) {
-  const std::vector<std::uint32_t> component = triangle_components(surface.mesh);
+std::vector<Piece> measure_pieces(const Surface& surface, std::span<const float> grid_spacing, const Threads& threads) {
+  const std::vector<std::uint32_t> component = triangle_components(surface.mesh, threads.size());
   std::vector<Piece> pieces;
   for (std::uint32_t i = 0; i < component.size(); ++i) {
     if (component[i] >= pieces.size()) pieces.resize(component[i] + 1);
     pieces[component[i]].triangles.push_back(i);
   }
-  for (Piece& piece : pieces) measure(surface, grid_spacing, piece);
+  std::vector<std::uint32_t> met(surface.mesh.vertices.size(), SampleIndex::none);
+  for (std::uint32_t c = 0; c < pieces.size(); ++c) measure(surface, grid_spacing, c, pieces[c], met);
   return pieces;
 }
 
@@ -117,8 +121,9 @@ void drop_triangles(std::span<const std::uint8_t> gone, Surface& surface) {
 }
 
 std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComponents& keep,
-                                                const Tetrahedralization& t, std::span<const float> grid_spacing) {
-  const std::vector<Piece> pieces = measure_pieces(surface, grid_spacing);
+                                                const Tetrahedralization& t, std::span<const float> grid_spacing,
+                                                const Threads& threads) {
+  const std::vector<Piece> pieces = measure_pieces(surface, grid_spacing, threads);
   const std::vector<std::uint8_t> kept = choose(pieces, keep);
   std::vector<DroppedComponent> dropped;
   std::vector<std::uint8_t> gone(surface.mesh.triangles.size(), 0);

@@ -74,30 +74,33 @@ std::array<int, 4> canonical_order(const std::array<std::uint32_t, 4>& v) {
 }
 
 /// Cells in the engine's order, in canonical form; cells beyond the hull have no number.
-void copy_cells(Delaunay& delaunay, Tetrahedralization& result) {
-  auto& tetrahedra = result.tetrahedra.raw();
-  auto& neighbours = result.neighbours.raw();
-  std::uint32_t count = 0;
+void copy_cells(Delaunay& delaunay, Tetrahedralization& result, const Threads& threads) {
+  std::vector<Delaunay::Cell_handle> cells;
+  cells.reserve(delaunay.tds().number_of_cells());
   for (auto c = delaunay.all_cells_begin(); c != delaunay.all_cells_end(); ++c) {
     if (delaunay.is_infinite(c)) {
       c->info() = none;
       continue;
     }
-    if (count >= none - 1)
+    if (cells.size() >= none - 1)
       throw Error(ErrorKind::memory, "delaunay", "more than 4 billion tetrahedra", "split the cloud");
-    c->info() = count++;
+    c->info() = static_cast<std::uint32_t>(cells.size());
+    cells.push_back(c);
   }
-  tetrahedra.resize(count);
-  neighbours.resize(count);
-  for (auto c = delaunay.finite_cells_begin(); c != delaunay.finite_cells_end(); ++c) {
+  auto& tetrahedra = result.tetrahedra.raw();
+  auto& neighbours = result.neighbours.raw();
+  tetrahedra.resize(cells.size());
+  neighbours.resize(cells.size());
+  for_each_index(threads, cells.size(), [&](std::size_t i) {
+    const Delaunay::Cell_handle c = cells[i];
     std::array<std::uint32_t, 4> v{};
     for (int k = 0; k < 4; ++k) v[static_cast<std::size_t>(k)] = c->vertex(k)->info();
     const std::array<int, 4> order = canonical_order(v);
     for (std::size_t k = 0; k < 4; ++k) {
-      tetrahedra[c->info()][k] = SampleIndex{v[static_cast<std::size_t>(order[k])]};
-      neighbours[c->info()][k] = TetrahedronIndex{c->neighbor(order[k])->info()};
+      tetrahedra[i][k] = SampleIndex{v[static_cast<std::size_t>(order[k])]};
+      neighbours[i][k] = TetrahedronIndex{c->neighbor(order[k])->info()};
     }
-  }
+  });
 }
 
 /// Tetrahedra by their vertices: by the first with counting, then within each first vertex.
@@ -160,7 +163,7 @@ Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const
   });
   if (delaunay.number_of_vertices() != result.positions.size())
     throw Error(ErrorKind::guarantee, "delaunay", "a sample was lost", "report this as a fault of the program");
-  copy_cells(delaunay, result);
+  copy_cells(delaunay, result, threads);
   engine.reset(); // its half a kilobyte per sample is not needed beside ours
   sort_tetrahedra(result, threads);
   return result;

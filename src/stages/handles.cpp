@@ -17,7 +17,7 @@ namespace eigencrust {
 namespace {
 
 // Longer loops go around what is there.
-constexpr std::size_t longest_loop = 100;
+constexpr std::uint32_t longest_loop = 100;
 // Tetrahedra tried at one loop for each of its vertices; more are no small change.
 constexpr std::size_t region_per_vertex = 400;
 // A change may leave so many specks behind; the component filter takes them.
@@ -60,12 +60,12 @@ class HandleClosing {
   using Region = std::vector<TetrahedronIndex>;
 
   std::uint64_t close_short_loops(const Checkpoint& checkpoint) {
-    const Surface surface = extract_surface(t_, labels_.labels);
+    const Surface surface = extract_surface(t_, labels_.labels, threads_);
     std::fill(changed_.begin(), changed_.end(), 0);
     std::uint64_t closed = 0;
     Samples loop;
-    for (const auto& vertices : handle_loops(surface.mesh.triangles, surface.mesh.vertices.size(), threads_)) {
-      if (vertices.size() > longest_loop) break;
+    for (const auto& vertices :
+         handle_loops(surface.mesh.triangles, surface.mesh.vertices.size(), longest_loop, threads_)) {
       if (checkpoint) checkpoint(0);
       loop.clear();
       for (const std::uint32_t v : vertices) loop.push_back(surface.sample_of[v].value);

@@ -2,15 +2,23 @@
 // §3: the surface is every face between an inside and an outside tetrahedron.
 #include <eigencrust/stages.h>
 
+#include "parallel/threads.h"
+
 namespace eigencrust {
 
-Surface extract_surface(const Tetrahedralization& t, const Labels& labels) {
+namespace {
+
+/// The surface's faces with sample numbers, in the order of their inside tetrahedra.
+struct Faces {
+  std::vector<std::array<SampleIndex, 3>> triangles;
+  std::vector<TetrahedronIndex> inside;
+};
+
+Faces faces_of(const Tetrahedralization& t, const Labels& labels, std::size_t begin, std::size_t end) {
   // Face k, counter-clockwise seen from outside the (positively oriented) tetrahedron.
   static constexpr std::array<std::array<std::size_t, 3>, 4> face{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-  Surface surface;
-  IndexedArray<SampleIndex, std::uint32_t> vertex_of(t.positions.size(), SampleIndex::none);
-  std::vector<std::array<SampleIndex, 3>> triangles;
-  for (std::uint32_t i = 0; i < t.tetrahedra.size(); ++i) {
+  Faces faces;
+  for (std::size_t i = begin; i < end; ++i) {
     if (labels.raw()[i] != Label::inside) continue;
     const auto& v = t.tetrahedra.raw()[i];
     for (std::size_t k = 0; k < 4; ++k) {
@@ -19,19 +27,44 @@ Surface extract_surface(const Tetrahedralization& t, const Labels& labels) {
       const std::array<SampleIndex, 3> triangle{v[face[k][0]], v[face[k][1]], v[face[k][2]]};
       // Only with a façade can inside reach the cube; such triangles are trimmed (§3.1).
       if (t.is_corner(triangle[0]) || t.is_corner(triangle[1]) || t.is_corner(triangle[2])) continue;
-      for (const SampleIndex s : triangle) vertex_of[s] = 0;
-      triangles.push_back(triangle);
-      surface.inside.push_back(TetrahedronIndex{i});
+      faces.triangles.push_back(triangle);
+      faces.inside.push_back(TetrahedronIndex{static_cast<std::uint32_t>(i)});
     }
   }
+  return faces;
+}
+
+} // namespace
+
+Surface extract_surface(const Tetrahedralization& t, const Labels& labels, const Threads& threads) {
+  const std::size_t n = t.tetrahedra.size();
+  std::vector<Faces> blocks((n + default_block - 1) / default_block);
+  for_blocks(threads, n, default_block,
+             [&](std::size_t begin, std::size_t end, std::size_t b) { blocks[b] = faces_of(t, labels, begin, end); });
+  std::vector<std::size_t> first(blocks.size() + 1, 0);
+  IndexedArray<SampleIndex, std::uint32_t> vertex_of(t.positions.size(), SampleIndex::none);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    first[b + 1] = first[b] + blocks[b].triangles.size();
+    for (const auto& triangle : blocks[b].triangles)
+      for (const SampleIndex s : triangle) vertex_of[s] = 0;
+  }
+  Surface surface;
   for (std::uint32_t s = 0; s < t.sample_count; ++s) {
     if (vertex_of.raw()[s] == SampleIndex::none) continue;
     vertex_of.raw()[s] = static_cast<std::uint32_t>(surface.sample_of.size());
     surface.sample_of.push_back(SampleIndex{s});
     surface.mesh.vertices.push_back(t.positions.raw()[s]);
   }
-  surface.mesh.triangles.reserve(triangles.size());
-  for (const auto& [a, b, c] : triangles) surface.mesh.triangles.push_back({vertex_of[a], vertex_of[b], vertex_of[c]});
+  surface.mesh.triangles.resize(first.back());
+  surface.inside.resize(first.back());
+  threads.run(blocks.size(), [&](std::size_t b) {
+    for (std::size_t k = 0; k < blocks[b].triangles.size(); ++k) {
+      const auto& [x, y, z] = blocks[b].triangles[k];
+      surface.mesh.triangles[first[b] + k] = {vertex_of[x], vertex_of[y], vertex_of[z]};
+      surface.inside[first[b] + k] = blocks[b].inside[k];
+    }
+    blocks[b] = {};
+  });
   return surface;
 }
 

@@ -29,7 +29,7 @@ void expect_repaired(const Prepared& p, const FinalLabels& before, ManifoldRule 
   if (rule == ManifoldRule::paper) {
     EXPECT_EQ(changed, counts.relabelled);
   }
-  const Surface surface = extract_surface(p.t, labels.labels);
+  const Surface surface = extract_surface(p.t, labels.labels, Threads(2));
   if (surface.mesh.triangles.empty()) return;
   const MeshSummary m = validate(surface.mesh, {.self_intersections = false, .merge_equal_vertices = false});
   EXPECT_EQ(m.boundary_edges, 0u);
@@ -81,7 +81,7 @@ TEST(RecoveredSamples, LeaveAManifoldAManifoldAndKnownLabelsAlone) {
     for (std::uint32_t i = 0; i < labels.labels.size(); ++i)
       if (norm(clouds::centroid(p.t, TetrahedronIndex{i})) < 0.7) labels.labels.raw()[i] = Label::inside;
     make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::cheapest, labels, Threads(2));
-    const Surface before = extract_surface(p.t, labels.labels);
+    const Surface before = extract_surface(p.t, labels.labels, Threads(2));
     Labels known = known_labels(p.t, {}, {}, {}, Threads(1));
     for (std::uint32_t i = 0; i < known.size(); i += 3) known.raw()[i] = labels.labels.raw()[i];
     const Labels old = labels.labels;
@@ -92,7 +92,7 @@ TEST(RecoveredSamples, LeaveAManifoldAManifoldAndKnownLabelsAlone) {
       if (known.raw()[i] != Label::unlabelled) {
         ASSERT_EQ(labels.labels.raw()[i], known.raw()[i]);
       }
-    const Surface after = extract_surface(p.t, labels.labels);
+    const Surface after = extract_surface(p.t, labels.labels, Threads(2));
     EXPECT_EQ(after.sample_of.size(), before.sample_of.size() + count);
     const ValidateOptions quick{.self_intersections = false, .merge_equal_vertices = false};
     const MeshSummary a = validate(before.mesh, quick), b = validate(after.mesh, quick);

@@ -56,7 +56,7 @@ struct NoisySphere {
     return centre_in_noise(p.t, p.stars, reach, isolated, first, team, labels);
   }
   [[nodiscard]] double mean_radius() const {
-    const Surface surface = extract_surface(p.t, labels.labels);
+    const Surface surface = extract_surface(p.t, labels.labels, Threads(2));
     double sum = 0;
     for (const Vec3& v : surface.mesh.vertices) sum += radius(v);
     return sum / static_cast<double>(surface.mesh.vertices.size());
@@ -137,7 +137,7 @@ TEST(Centring, WhereThereIsNoNoiseNothingMoves) {
     if (sphere.p.t.positions.raw()[s].x + sphere.p.t.origin.x < 0) sphere.reach[s] = 0;
   sphere.centre();
   double left = 0, right = 0, on_left = 0, on_right = 0;
-  const Surface surface = extract_surface(sphere.p.t, sphere.labels.labels);
+  const Surface surface = extract_surface(sphere.p.t, sphere.labels.labels, Threads(2));
   for (const Vec3& v : surface.mesh.vertices) {
     const double x = v.x + sphere.p.t.origin.x;
     if (std::fabs(x) < 0.5) continue;

@@ -54,15 +54,15 @@ std::pair<int, int> windings(const Loop& loop, int n, int m) {
 
 TEST(HandleLoops, SphereHasNone) {
   const std::vector<Triangle> tetrahedron{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
-  EXPECT_TRUE(handle_loops(tetrahedron, 4, Threads(2)).empty());
-  EXPECT_TRUE(handle_loops({}, 0, Threads(2)).empty());
+  EXPECT_TRUE(handle_loops(tetrahedron, 4, 100, Threads(2)).empty());
+  EXPECT_TRUE(handle_loops({}, 0, 100, Threads(2)).empty());
 }
 
 TEST(HandleLoops, TorusHasTwoThatGenerateAll) {
   for (const auto& [n, m] : {std::pair(5, 9), std::pair(9, 5), std::pair(4, 4), std::pair(3, 20)}) {
     const auto triangles = torus_mesh(static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(m));
     const std::vector<Loop> loops =
-        handle_loops(triangles, static_cast<std::size_t>(n) * static_cast<std::size_t>(m), Threads(2));
+        handle_loops(triangles, static_cast<std::size_t>(n) * static_cast<std::size_t>(m), 100, Threads(2));
     ASSERT_EQ(loops.size(), 2u);
     // A step moves by at most one along i and along j: n steps around one way, m around the other.
     EXPECT_EQ(loops[0].size(), static_cast<std::size_t>(std::min(n, m)));
@@ -78,7 +78,7 @@ TEST(HandleLoops, TorusHasTwoThatGenerateAll) {
 TEST(HandleLoops, OfTwoToriFourShortestFirst) {
   std::vector<Triangle> triangles = torus_mesh(4, 7);
   for (const Triangle& t : torus_mesh(6, 5, 28)) triangles.push_back(t);
-  const std::vector<Loop> loops = handle_loops(triangles, 28 + 30, Threads(2));
+  const std::vector<Loop> loops = handle_loops(triangles, 28 + 30, 100, Threads(2));
   std::vector<std::size_t> lengths;
   for (const Loop& loop : loops) lengths.push_back(loop.size());
   EXPECT_THAT(lengths, testing::ElementsAre(4, 5, 6, 7));
@@ -92,7 +92,8 @@ std::vector<std::uint32_t> all_samples(const Tetrahedralization& t) {
 }
 
 MeshSummary summary_of(const Tetrahedralization& t, const Labels& labels) {
-  return validate(extract_surface(t, labels).mesh, {.self_intersections = false, .merge_equal_vertices = false});
+  return validate(extract_surface(t, labels, Threads(2)).mesh,
+                  {.self_intersections = false, .merge_equal_vertices = false});
 }
 
 TEST(SurfacePart, OfAllSamplesIsTheWholeSurface) {

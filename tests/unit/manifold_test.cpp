@@ -42,7 +42,7 @@ std::vector<TetrahedronIndex> inside_of(const FinalLabels& labels) {
 }
 
 void expect_closed_manifold(const Tetrahedralization& t, const FinalLabels& labels) {
-  const Surface surface = extract_surface(t, labels.labels);
+  const Surface surface = extract_surface(t, labels.labels, Threads(2));
   if (surface.mesh.triangles.empty()) return;
   const MeshSummary summary = validate(surface.mesh, {.self_intersections = false, .merge_equal_vertices = false});
   EXPECT_TRUE(summary.closed() && summary.manifold() && summary.oriented());

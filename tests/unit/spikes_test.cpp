@@ -61,7 +61,7 @@ struct Spike {
     const auto& n = p.t.neighbours[i];
     return std::find(n.begin(), n.end(), j) != n.end();
   }
-  [[nodiscard]] Surface surface() const { return extract_surface(p.t, labels.labels); }
+  [[nodiscard]] Surface surface() const { return extract_surface(p.t, labels.labels, Threads(2)); }
   [[nodiscard]] bool tip_on_surface() const {
     const Surface s = surface();
     return std::find(s.sample_of.begin(), s.sample_of.end(), tip) != s.sample_of.end();

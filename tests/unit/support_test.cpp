@@ -30,7 +30,7 @@ struct Hull {
         labels.value[i] = -x;
       }
     neighbourhoods = sample_neighbourhoods(std::span(p.t.positions.raw()).first(p.t.sample_count), threads);
-    surface = extract_surface(p.t, labels.labels);
+    surface = extract_surface(p.t, labels.labels, Threads(2));
   }
   std::vector<float> support(std::span<const float> grid_spacing = {}) {
     measure_support(p.t, labels, neighbourhoods, grid_spacing, surface, threads);
@@ -112,7 +112,7 @@ struct TwoPieces {
           longest = std::max(longest, distance(p.t.positions[a], p.t.positions[b]));
       if (longest < 10) labels[i] = Label::inside;
     }
-    surface = extract_surface(p.t, labels);
+    surface = extract_surface(p.t, labels, Threads(2));
     surface.support.assign(surface.mesh.triangles.size(), 1.0f);
   }
   [[nodiscard]] bool is_small(std::size_t triangle) const {
@@ -123,7 +123,7 @@ struct TwoPieces {
       if (is_small(i)) surface.support[i] = support;
   }
   std::vector<DroppedComponent> filter(std::span<const float> grid_spacing = {}) {
-    return filter_components(surface, {Kind::supported, 1}, p.t, grid_spacing);
+    return filter_components(surface, {Kind::supported, 1}, p.t, grid_spacing, Threads(2));
   }
 };
 

@@ -19,7 +19,7 @@ TEST(Surface, OfOneTetrahedronIsItsFourFaces) {
   while (p.t.touches_cube(one)) ++one.value;
   Labels labels(p.t.tetrahedra.size(), Label::outside);
   labels[one] = Label::inside;
-  const Surface surface = extract_surface(p.t, labels);
+  const Surface surface = extract_surface(p.t, labels, Threads(2));
   EXPECT_EQ(surface.mesh.triangles.size(), 4u);
   std::vector<SampleIndex> vertices(p.t.tetrahedra[one].begin(), p.t.tetrahedra[one].end());
   std::sort(vertices.begin(), vertices.end());
@@ -34,7 +34,7 @@ TEST(Surface, IsClosedAndOutwardForAnyLabels) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Prepared p = clouds::prepare(clouds::random_box(150, seed));
     const FinalLabels labels = clouds::random_labels(p.t, 0.2 * static_cast<double>(seed) - 0.1, seed);
-    const MeshSummary summary = summary_of(extract_surface(p.t, labels.labels).mesh);
+    const MeshSummary summary = summary_of(extract_surface(p.t, labels.labels, Threads(2)).mesh);
     EXPECT_TRUE(summary.closed());
     EXPECT_EQ(summary.inconsistent_edges, 0u); // as many triangles one way as the other, at every edge
     double volume = 0;
@@ -59,7 +59,7 @@ TEST(Surface, TrianglesAtTheCubeAreTrimmed) {
   for (std::uint32_t i = 0; i < labels.size(); ++i)
     for (const SampleIndex s : p.t.tetrahedra.raw()[i])
       if (p.t.is_corner(s) && p.t.positions[s].z > 0) labels.raw()[i] = Label::outside;
-  const Surface surface = extract_surface(p.t, labels);
+  const Surface surface = extract_surface(p.t, labels, Threads(2));
   EXPECT_FALSE(surface.mesh.triangles.empty());
   for (const SampleIndex s : surface.sample_of) EXPECT_FALSE(p.t.is_corner(s));
 }

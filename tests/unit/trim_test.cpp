@@ -25,7 +25,7 @@ struct Hull {
     for (TetrahedronIndex i{0}; i.value < labels.size(); ++i.value)
       if (!p.t.touches_cube(i)) labels[i] = Label::inside;
     neighbourhoods = sample_neighbourhoods(std::span(p.t.positions.raw()).first(p.t.sample_count), threads);
-    surface = extract_surface(p.t, labels);
+    surface = extract_surface(p.t, labels, Threads(2));
     surface.support.assign(surface.mesh.triangles.size(), 1);
   }
   /// A line from each sample to the same place, relative to the origin.
