@@ -196,7 +196,7 @@ void check_options(const Options& options) {
   require(options.solver.tolerance > 0 && options.solver.tolerance < 1, "the solver's tolerance is not in (0, 1)",
           "use 1e-6");
   require(options.solver.stable_share > 0 && options.solver.stable_share <= 1, "the stable share is not in (0, 1]",
-          "use 1e-4");
+          "use 2e-4");
   require(options.solver.max_steps >= 1, "the solver may take no step", "allow at least one");
   require(options.min_agreement >= 0 && options.min_agreement <= 1, "the least agreement is not in [0, 1]", "use 0.8");
   require(options.pole_ties >= 0 && std::isfinite(options.pole_ties), "the weight of the pole ties is negative",

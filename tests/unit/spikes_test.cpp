@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A sphere with a tetrahedron between its surface and one sample far from it, labelled by hand.
 #include <eigencrust/validate.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "clouds.h"
@@ -146,6 +147,59 @@ TEST(Spikes, LidsStay) {
   const Labels before = labels.labels;
   EXPECT_EQ(cut_spikes(p.t, p.stars, p.poles, first, p.known, around, {}, ManifoldRule::cheapest, labels), 0u);
   EXPECT_EQ(labels.labels.raw(), before.raw());
+}
+
+/// The sphere, a cluster of samples far from it, and a tetrahedron from the sphere's surface to one of them.
+struct Fin {
+  Prepared p;
+  std::vector<TetrahedronIndex> fin;
+  Labels first;
+  FinalLabels labels;
+
+  explicit Fin(std::size_t cluster)
+      : p(clouds::prepare(clouds::joined(clouds::sphere(2000), clouds::sphere(cluster, 0.1, {0.3, 0.2, 3})))),
+        first(p.t.tetrahedra.size(), Label::unlabelled),
+        labels{Labels(p.t.tetrahedra.size(), Label::outside),
+               IndexedArray<TetrahedronIndex, float>(p.t.tetrahedra.size(), 0.05f), false} {
+    std::vector<TetrahedronIndex> to_cluster;
+    for (TetrahedronIndex i{0}; i.value < p.t.tetrahedra.size(); ++i.value) {
+      if (p.t.touches_cube(i)) continue;
+      const auto& v = p.t.tetrahedra[i];
+      const auto far = std::count_if(v.begin(), v.end(), [&](SampleIndex s) { return in_cluster(s); });
+      if (far == 1) to_cluster.push_back(i);
+      if (far > 0) continue;
+      labels.labels[i] = Label::inside;
+      labels.value[i] = -0.05f;
+    }
+    fin.push_back(to_cluster.at(to_cluster.size() / 2));
+    labels.labels[fin[0]] = first[fin[0]] = Label::inside; // its one pole says so
+  }
+  [[nodiscard]] bool in_cluster(SampleIndex s) const { return (p.t.positions[s] + p.t.origin).z > 2; }
+  std::uint64_t cut() {
+    const Threads threads(2);
+    const Neighbourhoods around =
+        sample_neighbourhoods(std::span(p.t.positions.raw()).first(p.t.sample_count), threads);
+    EXPECT_THAT(around.isolated, testing::Each(0.0f)); // none of them alone
+    return cut_spikes(p.t, p.stars, p.poles, first, p.known, around, {}, ManifoldRule::cheapest, labels);
+  }
+};
+
+TEST(Spikes, FinsToLonelyGroupsAreCut) {
+  Fin fin(12);
+  ASSERT_EQ(extract_surface(fin.p.t, fin.labels.labels, Threads(1)).mesh.vertices.size(), 2001u);
+  EXPECT_EQ(fin.cut(), 1u);
+  EXPECT_EQ(fin.labels.labels[fin.fin[0]], Label::outside);
+  const Surface rest = extract_surface(fin.p.t, fin.labels.labels, Threads(1));
+  EXPECT_EQ(rest.mesh.vertices.size(), 2000u);
+  const MeshSummary summary = validate(rest.mesh);
+  EXPECT_TRUE(summary.closed() && summary.manifold());
+}
+
+TEST(Spikes, FinsToManySamplesStay) {
+  Fin fin(100);
+  const Labels before = fin.labels.labels;
+  EXPECT_EQ(fin.cut(), 0u);
+  EXPECT_EQ(fin.labels.labels.raw(), before.raw());
 }
 
 } // namespace

@@ -47,7 +47,7 @@ TEST(Surface, IsClosedAndOutwardForAnyLabels) {
 
 TEST(Surface, OfAllOutsideIsEmpty) {
   const Prepared p = clouds::prepare(clouds::random_box(30, 6));
-  const Surface surface = extract_surface(p.t, Labels(p.t.tetrahedra.size(), Label::outside));
+  const Surface surface = extract_surface(p.t, Labels(p.t.tetrahedra.size(), Label::outside), Threads(2));
   EXPECT_TRUE(surface.mesh.triangles.empty());
   EXPECT_TRUE(surface.mesh.vertices.empty());
 }
