@@ -82,7 +82,8 @@ void second_half(const PointCloud& cloud, const FirstHalf& half, FirstHalf* spen
   const Labels &named = before.named, &known = before.labels;
 
   PoleLabels pole_labels = run.stage("label_poles", [&] {
-    return label_poles(t, poles, g, first, half.component, known, options.global_sign, options.min_agreement, threads);
+    return label_poles(t, stars, poles, g, first, half.component, known, options.global_sign, options.min_agreement,
+                       threads);
   });
   describe_pole_labels(pole_labels, run);
   run.product("poles", [&] { return snapshot_of_poles(t, poles, g, first, pole_labels.labels); });

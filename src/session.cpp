@@ -121,8 +121,8 @@ struct Session::Kept {
     unnamed.inside_points.clear();
     Run run(report, observer);
     half = first_half(cloud, unnamed, run, report, threads);
-    PoleLabels labels = label_poles(half.t, half.poles, half.graph, half.first, half.component, half.known.labels,
-                                    options.global_sign, options.min_agreement, threads);
+    PoleLabels labels = label_poles(half.t, half.stars, half.poles, half.graph, half.first, half.component,
+                                    half.known.labels, options.global_sign, options.min_agreement, threads);
     if (options.questionable == Questionable::after)
       unlabel_questionable(half.questionable, half.known.labels, labels.labels);
     if (options.second_stage == SecondStage::harmonic) {

@@ -161,9 +161,9 @@ struct PoleLabels {
   std::uint64_t left_to_stage_two = 0; ///< poles of components whose side is open
   std::uint64_t contradicted = 0;      ///< poles without a label because their neighbours disagree
 };
-PoleLabels label_poles(const Tetrahedralization& tetrahedralization, const Poles& poles, const PoleGraph& graph,
-                       const Partition& partition, std::span<const std::uint32_t> component, const Labels& known,
-                       GlobalSign global_sign, double min_agreement, const Threads& threads);
+PoleLabels label_poles(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
+                       const PoleGraph& graph, const Partition& partition, std::span<const std::uint32_t> component,
+                       const Labels& known, GlobalSign global_sign, double min_agreement, const Threads& threads);
 
 /// §3.3: removes the labels of questionable tetrahedra but for those known beforehand.
 /// \return how many

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/nearest.h"
+#include "geometry/star_search.h"
 #include "parallel/threads.h"
 
 namespace eigencrust {
@@ -19,6 +19,12 @@ double trust(double shorter_pole, double neighbourhood_radius) {
   return std::clamp((shorter_pole / neighbourhood_radius - 1.2) / 2, 0.05, 1.0);
 }
 
+/// Minus the weight of a sample's pole pair in the pole graph (§3.1).
+double weight_of_pair(const Vec3& s, const Sphere& a, const Sphere& b) {
+  const double cosine = -dot(a.centre - s, b.centre - s) / (norm(a.centre - s) * norm(b.centre - s));
+  return std::exp(4 + 4 * std::clamp(cosine, -1.0, 1.0));
+}
+
 struct Evidence {
   double balance = 0, total = 0;
   Evidence operator+(const Evidence& other) const { return {balance + other.balance, total + other.total}; }
@@ -26,35 +32,32 @@ struct Evidence {
 
 } // namespace
 
-double outside_evidence(const Tetrahedralization& t, const Poles& poles, const PoleGraph& graph,
-                        const Partition& partition, const Labels& known, const Threads& threads) {
+double outside_evidence(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles,
+                        const PoleGraph& graph, const Partition& partition, const Labels& known,
+                        const Threads& threads) {
   std::vector<std::uint32_t> node_of(poles.tetrahedron.size(), NodeIndex::none);
   for (std::uint32_t node = 0; node < graph.pole.size(); ++node) node_of[graph.pole.raw()[node].value] = node;
 
-  const PointTree tree(std::span(t.positions.raw()).first(t.sample_count));
   std::vector<std::array<float, 2>> repulsive(t.sample_count, {0, 0}); // weight counted, weight claimed; per sample
   std::vector<std::uint32_t> target(t.sample_count, NodeIndex::none);
-  for_each_index(
-      threads, t.sample_count,
-      [&](std::size_t i) {
-        PolePair pair = poles.of_sample.raw()[i];
-        if (!pair.first.valid() || !pair.second.valid()) return;
-        if (known[poles.tetrahedron[pair.second]] == Label::outside) std::swap(pair.first, pair.second);
-        if (known[poles.tetrahedron[pair.first]] != Label::outside) return;
-        const std::uint32_t node = node_of[pair.second.value];
-        if (node == NodeIndex::none) return;
-        std::array<std::uint32_t, neighbourhood + 1> index{};
-        std::array<double, neighbourhood + 1> square{};
-        const std::size_t found = tree.nearest(t.positions.raw()[i], neighbourhood + 1, index.data(), square.data());
-        const Sphere &a = poles.sphere[pair.first], &b = poles.sphere[pair.second];
-        const Vec3& s = t.positions.raw()[i];
-        const double cosine = -dot(a.centre - s, b.centre - s) / (norm(a.centre - s) * norm(b.centre - s));
-        const double weight = std::exp(4 + 4 * std::clamp(cosine, -1.0, 1.0));
-        repulsive[i] = {static_cast<float>(trust(std::min(a.radius, b.radius), std::sqrt(square[found - 1])) * weight),
-                        static_cast<float>(weight)};
-        target[i] = node;
-      },
-      1024);
+  for_blocks(threads, t.sample_count, block_with_table(t.sample_count),
+             [&](std::size_t begin, std::size_t end, std::size_t) {
+               StarSearch search(t, stars);
+               for (std::size_t i = begin; i < end; ++i) {
+                 PolePair pair = poles.of_sample.raw()[i];
+                 if (!pair.first.valid() || !pair.second.valid()) continue;
+                 if (known[poles.tetrahedron[pair.second]] == Label::outside) std::swap(pair.first, pair.second);
+                 if (known[poles.tetrahedron[pair.first]] != Label::outside) continue;
+                 target[i] = node_of[pair.second.value];
+                 if (target[i] == NodeIndex::none) continue;
+                 const SampleIndex s{static_cast<std::uint32_t>(i)};
+                 const Sphere &a = poles.sphere[pair.first], &b = poles.sphere[pair.second];
+                 const double around = search.distance_to_nearest(s, neighbourhood);
+                 const double weight = weight_of_pair(t.positions[s], a, b);
+                 repulsive[i] = {static_cast<float>(trust(std::min(a.radius, b.radius), around) * weight),
+                                 static_cast<float>(weight)};
+               }
+             });
 
   std::vector<double> claimed(graph.pole.size(), 0);
   Evidence sum;

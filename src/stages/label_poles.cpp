@@ -79,9 +79,9 @@ double agreement(const SignedGraph& graph, const Partition& partition, std::uint
 
 } // namespace
 
-PoleLabels label_poles(const Tetrahedralization& t, const Poles& poles, const PoleGraph& graph,
-                       const Partition& partition, std::span<const std::uint32_t> component, const Labels& known,
-                       GlobalSign global_sign, double min_agreement, const Threads& threads) {
+PoleLabels label_poles(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles,
+                       const PoleGraph& graph, const Partition& partition, std::span<const std::uint32_t> component,
+                       const Labels& known, GlobalSign global_sign, double min_agreement, const Threads& threads) {
   PoleLabels result;
   result.labels = known;
   // The supernode's own component may be 0 when the vector is localized elsewhere; positive then stands.
@@ -90,7 +90,7 @@ PoleLabels label_poles(const Tetrahedralization& t, const Poles& poles, const Po
   // An inside supernode settles the matter: both supernodes then have known labels.
   const bool both_known = graph.graph.supernodes.size() > 1;
   if (global_sign == GlobalSign::vote && !both_known) {
-    result.vote = outside_evidence(t, poles, graph, partition, known, threads);
+    result.vote = outside_evidence(t, stars, poles, graph, partition, known, threads);
     if (result.vote != 0) outside_sign = result.vote > 0 ? 1 : -1;
     result.vote = std::fabs(result.vote);
   }

@@ -5,6 +5,7 @@
 
 #include <eigencrust/stages.h>
 
+#include "geometry/distinct_numbers.h"
 #include "parallel/threads.h"
 
 namespace eigencrust {
@@ -13,32 +14,6 @@ namespace {
 constexpr std::uint32_t no_node = NodeIndex::none;
 constexpr std::uint32_t outside_node = no_node - 1; ///< collapsed into the outside supernode
 constexpr std::uint32_t inside_node = no_node - 2;
-
-/// Long blocks: each has a table of all samples or poles.
-std::size_t block_length(std::size_t items) { return std::max<std::size_t>(2048, items / 64 + 1); }
-
-/// A list of different numbers below a bound, made anew again and again.
-class DistinctNumbers {
- public:
-  explicit DistinctNumbers(std::size_t bound) : last_list_(bound, 0) {}
-
-  void clear() {
-    ++list_;
-    numbers_.clear();
-  }
-  void add(std::uint32_t number) {
-    if (last_list_[number] == list_) return;
-    last_list_[number] = list_;
-    numbers_.push_back(number);
-  }
-  /// In the order of their first appearance.
-  [[nodiscard]] const std::vector<std::uint32_t>& numbers() const { return numbers_; }
-
- private:
-  std::vector<std::uint32_t> last_list_; ///< that holds the number
-  std::vector<std::uint32_t> numbers_;
-  std::uint32_t list_ = 0;
-};
 
 /// Compressed lists of 32-bit numbers.
 struct Lists {
@@ -53,7 +28,7 @@ struct Lists {
 Lists sample_neighbours(const Tetrahedralization& t, const VertexStars& stars, const Threads& threads) {
   Lists lists;
   lists.begin.assign(t.sample_count + 1, 0);
-  const std::size_t block = block_length(t.sample_count);
+  const std::size_t block = block_with_table(t.sample_count);
   std::vector<std::vector<std::uint32_t>> blocks((t.sample_count + block - 1) / block);
   for_blocks(threads, t.sample_count, block, [&](std::size_t first, std::size_t last, std::size_t b) {
     DistinctNumbers distinct(t.sample_count);
@@ -245,7 +220,7 @@ PoleGraph pole_graph(const Tetrahedralization& t, const VertexStars& stars, cons
   graph.row_begin.assign(nodes + 1, 0);
   graph.supernodes.assign(supernodes, {std::vector<float>(nodes, 0.0f)});
   graph.supernode_weight.assign(supernodes, std::vector<double>(supernodes, 0.0));
-  const std::size_t block = block_length(nodes);
+  const std::size_t block = block_with_table(nodes);
   std::vector<Rows> blocks((nodes + block - 1) / block);
   for_blocks(threads, nodes, block, [&](std::size_t first, std::size_t last, std::size_t b) {
     RowAssembler assembler(t, poles, neighbours, samples_of, node_of, isolated);

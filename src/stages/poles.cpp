@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // §3: the poles of the samples.
 #include <algorithm>
+#include <optional>
 
 #include <eigencrust/stages.h>
 
@@ -13,11 +14,17 @@ namespace {
 
 using Centres = IndexedArray<TetrahedronIndex, Vec3>;
 
-Centres circumcentres(const Tetrahedralization& t, const Threads& threads) {
+/// \param first another piece of work, begun before all others
+template <class Work>
+Centres circumcentres(const Tetrahedralization& t, const Threads& threads, const Work& first) {
   Centres centres(t.tetrahedra.size());
-  for_each_index(threads, t.tetrahedra.size(), [&](std::size_t i) {
-    const auto& [a, b, c, d] = t.tetrahedra.raw()[i];
-    centres.raw()[i] = circumcentre(t.positions[a], t.positions[b], t.positions[c], t.positions[d]);
+  const std::size_t n = centres.size(), blocks = (n + default_block - 1) / default_block;
+  threads.run(blocks + 1, [&](std::size_t b) {
+    if (b == 0) return first();
+    for (std::size_t i = (b - 1) * default_block; i < std::min(n, b * default_block); ++i) {
+      const auto& [p, q, r, s] = t.tetrahedra.raw()[i];
+      centres.raw()[i] = circumcentre(t.positions[p], t.positions[q], t.positions[r], t.positions[s]);
+    }
   });
   return centres;
 }
@@ -84,10 +91,8 @@ TetrahedronPair widest_pair(const Vec3& s, std::span<const std::uint32_t> near, 
 }
 
 /// Replaces the pairs of samples whose reach exceeds the distance to their neighbours.
-void widen_pairs(const Tetrahedralization& t, std::span<const float> reach, const Centres& centres,
-                 std::vector<TetrahedronPair>& pairs, const Threads& threads) {
-  if (std::none_of(reach.begin(), reach.end(), [](float r) { return r > 0; })) return;
-  const PointTree tree(std::span(t.positions.raw()).first(t.sample_count));
+void widen_pairs(const Tetrahedralization& t, std::span<const float> reach, const PointTree& tree,
+                 const Centres& centres, std::vector<TetrahedronPair>& pairs, const Threads& threads) {
   const std::vector<TetrahedronPair> own = pairs;
   for_each_index(
       threads, t.sample_count,
@@ -104,13 +109,17 @@ void widen_pairs(const Tetrahedralization& t, std::span<const float> reach, cons
 
 Poles find_poles(const Tetrahedralization& t, const VertexStars& stars, std::span<const float> reach,
                  const Threads& threads) {
-  const Centres centres = circumcentres(t, threads);
+  const bool some_reach = std::any_of(reach.begin(), reach.end(), [](float r) { return r > 0; });
+  std::optional<PointTree> tree;
+  const Centres centres = circumcentres(t, threads, [&] {
+    if (some_reach) tree.emplace(std::span(t.positions.raw()).first(t.sample_count));
+  });
   std::vector<TetrahedronPair> pairs(t.sample_count);
   for_each_index(threads, t.sample_count, [&](std::size_t i) {
     const SampleIndex s{static_cast<std::uint32_t>(i)};
     pairs[i] = pole_tetrahedra(t.positions[s], stars[s], centres);
   });
-  if (!reach.empty()) widen_pairs(t, reach, centres, pairs, threads);
+  if (tree) widen_pairs(t, reach, *tree, centres, pairs, threads);
   Poles poles;
   poles.of_sample = IndexedArray<SampleIndex, PolePair>(t.sample_count);
   IndexedArray<TetrahedronIndex, PoleIndex> pole_of(t.tetrahedra.size());
@@ -120,8 +129,6 @@ Poles find_poles(const Tetrahedralization& t, const VertexStars& stars, std::spa
     if (!pole.valid()) {
       pole.value = poles.tetrahedron.size();
       poles.tetrahedron.raw().push_back(tetrahedron);
-      const Vec3& centre = centres[tetrahedron];
-      poles.sphere.raw().push_back({centre, distance(centre, t.positions[t.tetrahedra[tetrahedron][0]])});
     }
     return pole;
   };
@@ -129,6 +136,12 @@ Poles find_poles(const Tetrahedralization& t, const VertexStars& stars, std::spa
     const PoleIndex first = number(pairs[i].first);
     poles.of_sample.raw()[i] = {first, number(pairs[i].second)};
   }
+  poles.sphere = IndexedArray<PoleIndex, Sphere>(poles.tetrahedron.size());
+  for_each_index(threads, poles.tetrahedron.size(), [&](std::size_t p) {
+    const TetrahedronIndex tetrahedron = poles.tetrahedron.raw()[p];
+    const Vec3& centre = centres[tetrahedron];
+    poles.sphere.raw()[p] = {centre, distance(centre, t.positions[t.tetrahedra[tetrahedron][0]])};
+  });
   return poles;
 }
 

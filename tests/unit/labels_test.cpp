@@ -19,7 +19,7 @@ struct FirstStage {
     partition = partition_poles(graph, {}, threads, &component);
   }
   PoleLabels labels(GlobalSign sign, double min_agreement = 0) const {
-    return label_poles(p.t, p.poles, graph, partition, component, known, sign, min_agreement, Threads(1));
+    return label_poles(p.t, p.stars, p.poles, graph, partition, component, known, sign, min_agreement, Threads(1));
   }
   void negate_all_but_supernodes() {
     for (float& v : partition.value) v = -v;
