@@ -267,7 +267,7 @@ IterationResult conjugate_gradients(const SignedMultigrid& hierarchy, Vector b, 
   const std::size_t n = b.size();
   // Directions are single, too: x and r follow the direction as it is, so rounding it costs no accuracy.
   Vector r = std::move(b), mp;
-  FloatVector p(n, 0), single(r.begin(), r.end()), z;
+  FloatVector p(n, 0), z;
   result.x.assign(n, 0);
   if (size == 0) {
     result.status = SolverStatus::converged;
@@ -282,7 +282,7 @@ IterationResult conjugate_gradients(const SignedMultigrid& hierarchy, Vector b, 
       result.status = SolverStatus::signs_stable;
     if (result.status != SolverStatus::not_converged || result.steps == control.max_steps) break;
     if (control.checkpoint) control.checkpoint(static_cast<double>(result.steps) / control.max_steps);
-    hierarchy.cycle(0, single, z, workspace, threads);
+    hierarchy.cycle(0, r, z, workspace, threads);
     // The cycle is linear to single precision only: the difference form (Polak-Ribiere) would forgive more,
     // but a few dozen steps do not need it.
     const double rz_new = sum_blocks<double>(threads, r.size(), [&](std::size_t begin, std::size_t end) {
@@ -308,7 +308,6 @@ IterationResult conjugate_gradients(const SignedMultigrid& hierarchy, Vector b, 
         const double before = result.x[i];
         result.x[i] += alpha * static_cast<double>(p[i]);
         r[i] -= alpha * mp[i];
-        single[i] = static_cast<float>(r[i]);
         part.square += r[i] * r[i];
         part.changes += (before > 0) != (result.x[i] > 0);
       }

@@ -34,8 +34,9 @@ float product(const BorderedMatrix& m, std::uint64_t begin, std::uint64_t end, c
 
 /// Puts the entries that a forward sweep from zero reads in front of each row: earlier columns of the same block.
 /// \returns how many they are, for each row
-std::vector<std::uint32_t> swept_entries_first(BorderedMatrix& m, const Threads& threads) {
-  std::vector<std::uint32_t> count(m.interior_size());
+std::vector<std::uint16_t> swept_entries_first(BorderedMatrix& m, const Threads& threads) {
+  static_assert(relaxation_block <= 65536);
+  std::vector<std::uint16_t> count(m.interior_size());
   for_blocks(threads, m.interior_size(), relaxation_block, [&](std::size_t begin, std::size_t end, std::size_t) {
     std::vector<std::pair<std::uint32_t, float>> others;
     for (std::size_t i = begin; i < end; ++i) {
@@ -56,29 +57,31 @@ std::vector<std::uint32_t> swept_entries_first(BorderedMatrix& m, const Threads&
         }
         for (std::size_t k = 0; k < others.size(); ++k) std::tie(m.column[to + k], m.value[to + k]) = others[k];
       }
-      count[i] = static_cast<std::uint32_t>(to - m.row_begin[i]);
+      count[i] = static_cast<std::uint16_t>(to - m.row_begin[i]);
     }
   });
   return count;
 }
 
 /// The first sweep, from x = 0: only what was set earlier in the same block counts.
-void relax_from_zero(const SignedMultigrid::Level& level, const FloatVector& b, FloatVector& x,
-                     const Threads& threads) {
+template <class B>
+void relax_from_zero(const SignedMultigrid::Level& level, const B& b, FloatVector& x, const Threads& threads) {
   const BorderedMatrix& m = level.matrix;
   for_blocks(threads, m.interior_size(), relaxation_block, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i)
-      x[i] = (b[i] - product(m, m.row_begin[i], m.row_begin[i] + level.swept[i], x)) * level.inverse[i];
+      x[i] = (static_cast<float>(b[i]) - product(m, m.row_begin[i], m.row_begin[i] + level.swept[i], x)) *
+             level.inverse[i];
   });
 }
 
 /// The last sweep, backwards. \param old a copy of x
-void relax_backward(const SignedMultigrid::Level& level, const FloatVector& b, const FloatVector& old, FloatVector& x,
+template <class B>
+void relax_backward(const SignedMultigrid::Level& level, const B& b, const FloatVector& old, FloatVector& x,
                     const Threads& threads) {
   const BorderedMatrix& m = level.matrix;
   for_blocks(threads, m.interior_size(), relaxation_block, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = end; i-- > begin;) {
-      float sum = b[i] - border_part(m, x, i);
+      float sum = static_cast<float>(b[i]) - border_part(m, x, i);
       for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1]; ++e) {
         const std::size_t j = m.column[e];
         sum -= m.value[e] * (j - begin < end - begin ? x[j] : old[j]);
@@ -100,7 +103,8 @@ double border_row_product(const BorderedMatrix& m, const FloatVector& x, std::ui
   return sum;
 }
 
-void relax_border(const BorderedMatrix& m, const FloatVector& b, FloatVector& x, const Threads& threads) {
+template <class B>
+void relax_border(const BorderedMatrix& m, const B& b, FloatVector& x, const Threads& threads) {
   const std::size_t n = m.interior_size();
   for (std::uint32_t s = 0; s < m.border_size(); ++s)
     if (m.corner[s][s] > 0)
@@ -177,7 +181,8 @@ SignedMultigrid::Workspace SignedMultigrid::workspace() const {
 
 /// Pᵀ (b - M x) after a forward sweep from zero, which used up b with the diagonal and the entries it read. The
 /// residual is written down first: aggregates are scattered, and rows want to be streamed.
-void SignedMultigrid::restrict_residual(std::size_t level, const FloatVector& b, const FloatVector& x, FloatVector& r,
+template <class B>
+void SignedMultigrid::restrict_residual(std::size_t level, const B& b, const FloatVector& x, FloatVector& r,
                                         FloatVector& coarse, const Threads& threads) const {
   const Level& here = levels_[level];
   const BorderedMatrix& m = here.matrix;
@@ -214,7 +219,8 @@ void SignedMultigrid::add_correction(std::size_t level, const FloatVector& coars
     x[n + s] += over_correction * coarse[a.count + s];
 }
 
-void SignedMultigrid::solve_coarsest(const FloatVector& b, FloatVector& x) const {
+template <class B>
+void SignedMultigrid::solve_coarsest(const B& b, FloatVector& x) const {
   const auto& kept = coarsest_->kept;
   std::fill(x.begin(), x.end(), 0.0f);
   Eigen::VectorXd rhs(static_cast<Eigen::Index>(kept.size()));
@@ -223,8 +229,9 @@ void SignedMultigrid::solve_coarsest(const FloatVector& b, FloatVector& x) const
   for (std::size_t i = 0; i < kept.size(); ++i) x[kept[i]] = static_cast<float>(solution(static_cast<Eigen::Index>(i)));
 }
 
-void SignedMultigrid::cycle(std::size_t level, const FloatVector& b, FloatVector& x, Workspace& workspace,
-                            const Threads& threads) const {
+template <class B>
+void SignedMultigrid::cycle_any(std::size_t level, const B& b, FloatVector& x, Workspace& workspace,
+                                const Threads& threads) const {
   const Level& here = levels_[level];
   x.resize(here.matrix.size());
   if (level + 1 == levels_.size()) return solve_coarsest(b, x);
@@ -238,6 +245,16 @@ void SignedMultigrid::cycle(std::size_t level, const FloatVector& b, FloatVector
   add_correction(level, coarse_x, x, old, threads);
   relax_border(here.matrix, b, x, threads);
   relax_backward(here, b, old, x, threads);
+}
+
+void SignedMultigrid::cycle(std::size_t level, const FloatVector& b, FloatVector& x, Workspace& workspace,
+                            const Threads& threads) const {
+  cycle_any(level, b, x, workspace, threads);
+}
+
+void SignedMultigrid::cycle(std::size_t level, const Vector& b, FloatVector& x, Workspace& workspace,
+                            const Threads& threads) const {
+  cycle_any(level, b, x, workspace, threads);
 }
 
 } // namespace eigencrust

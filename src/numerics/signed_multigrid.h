@@ -27,7 +27,7 @@ class SignedMultigrid {
     Aggregation aggregation; ///< of the interior on the next level; empty on the last
     FloatVector inverse;     ///< 1 / diagonal of A; 0 where that is not positive; empty on the last
     /// Entries at the front of each row that a forward sweep from zero reads; empty on the last.
-    std::vector<std::uint32_t> swept;
+    std::vector<std::uint16_t> swept;
   };
   /// The vectors of one cycle, reused from cycle to cycle.
   struct Workspace {
@@ -53,16 +53,21 @@ class SignedMultigrid {
   /// in b. Single precision: as a preconditioner it only has to point the right way, and it is bound by memory.
   void cycle(std::size_t level, const FloatVector& b, FloatVector& x, Workspace& workspace,
              const Threads& threads) const;
+  void cycle(std::size_t level, const Vector& b, FloatVector& x, Workspace& workspace, const Threads& threads) const;
 
   /// x on `level` from the next coarser one (nodes that ended here get 0).
   void prolongate(std::size_t level, const Vector& coarse, Vector& x, const Threads& threads) const;
 
  private:
-  void restrict_residual(std::size_t level, const FloatVector& b, const FloatVector& x, FloatVector& r,
-                         FloatVector& coarse, const Threads& threads) const;
+  template <class B>
+  void cycle_any(std::size_t level, const B& b, FloatVector& x, Workspace& workspace, const Threads& threads) const;
+  template <class B>
+  void restrict_residual(std::size_t level, const B& b, const FloatVector& x, FloatVector& r, FloatVector& coarse,
+                         const Threads& threads) const;
   void add_correction(std::size_t level, const FloatVector& coarse, FloatVector& x, FloatVector& copy,
                       const Threads& threads) const;
-  void solve_coarsest(const FloatVector& b, FloatVector& x) const;
+  template <class B>
+  void solve_coarsest(const B& b, FloatVector& x) const;
 
   std::vector<Level> levels_;
   struct Coarsest;
