@@ -6,6 +6,7 @@
 
 #include <eigencrust/io.h>
 
+#include "geometry/exact_difference.h"
 #include "parallel/threads.h"
 
 namespace eigencrust {
@@ -54,9 +55,6 @@ void describe_input(const PointCloud& cloud, const Samples& samples, Run& run, R
   report.duplicates = samples.duplicates;
   report.nonfinite = samples.nonfinite;
   report.bounds = samples.bounds;
-  if (samples.fused > 0)
-    run.warn(std::to_string(samples.fused) +
-             " distinct points fell together: the cloud is too wide for double precision; remove far strays");
 }
 
 void describe_noise(const std::vector<float>& grid_spacing, Run& run) {
@@ -190,17 +188,9 @@ std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Option
 }
 
 bool is_exact_translation(const Tetrahedralization& t, const PointCloud& cloud, const Threads& threads) {
-  // What p - o loses by rounding (Knuth's exact difference); all operations are single ones.
-  const auto lost = [](double p, double o) {
-    const double d = p - o, back = p - d;
-    return (p - (d + back)) + (back - o);
-  };
   const auto rounded = sum_blocks<std::uint64_t>(threads, t.sample_count, [&](std::size_t begin, std::size_t end) {
     std::uint64_t count = 0;
-    for (std::size_t s = begin; s < end; ++s) {
-      const Vec3& p = cloud.points[t.source.raw()[s]];
-      count += lost(p.x, t.origin.x) != 0 || lost(p.y, t.origin.y) != 0 || lost(p.z, t.origin.z) != 0;
-    }
+    for (std::size_t s = begin; s < end; ++s) count += !is_exact_difference(cloud.points[t.source.raw()[s]], t.origin);
     return count;
   });
   return rounded == 0;

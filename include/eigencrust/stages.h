@@ -16,14 +16,13 @@
 
 namespace eigencrust {
 
-/// The distinct finite points, relative to the middle of their bounding box, along a Hilbert curve.
+/// The distinct finite points, exactly relative to an origin, along a Hilbert curve.
 struct Samples {
   Vec3 origin;
   IndexedArray<SampleIndex, Vec3> positions;
   IndexedArray<SampleIndex, std::uint32_t> source; ///< smallest row with these coordinates
   std::uint64_t duplicates = 0, nonfinite = 0;
-  std::uint64_t fused = 0; ///< duplicates that were distinct before the middle was subtracted
-  Box3 bounds;             ///< input coordinates
+  Box3 bounds; ///< input coordinates
 };
 /// \throws Error{input} for fewer than 5 distinct finite points or more than 2^32 - 16
 Samples prepare_samples(std::span<const Vec3> points, const Threads& threads);

@@ -155,7 +155,7 @@ struct TriangleMesh {
 
 /// Delaunay tetrahedra of the samples and the eight corners of a wide cube (§3 of the paper).
 ///
-/// Coordinates are relative to `origin`, the midpoint of the input's bounding box, so that clouds far
+/// Coordinates are relative to `origin`, from which all of them are exact (near a cloud far from 0), so that clouds far
 /// from zero lose nothing. Samples are distinct and numbered along a Hilbert curve (ties
 /// lexicographic), the cube corners come last; tetrahedra are sorted by their smallest sample. Both
 /// orders depend on the set of coordinates alone: neither on the order of the rows nor on threads.

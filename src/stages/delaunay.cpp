@@ -150,9 +150,10 @@ Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const
   result.positions = std::move(samples.positions);
   result.source = std::move(samples.source);
   const double h = cube_half_side_in_diagonals * samples.bounds.diagonal();
+  const Vec3 middle = samples.bounds.centre() - samples.origin;
   for (const double x : {-h, h})
     for (const double y : {-h, h})
-      for (const double z : {-h, h}) result.positions.raw().push_back({x, y, z});
+      for (const double z : {-h, h}) result.positions.raw().push_back(middle + Vec3{x, y, z});
   auto engine = std::make_unique<Delaunay>();
   Delaunay& delaunay = *engine;
   threads.run(beside ? 2 : 1, [&](std::size_t task) {

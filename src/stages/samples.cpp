@@ -5,6 +5,7 @@
 #include <eigencrust/error.h>
 #include <eigencrust/stages.h>
 
+#include "geometry/exact_difference.h"
 #include "geometry/nearest.h"
 #include "geometry/spatial_order.h"
 #include "parallel/threads.h"
@@ -36,6 +37,21 @@ void check_extent(const Box3& box) {
                 "give at least 5 distinct points, or change the unit of the input");
 }
 
+/// An origin in or near the box from which all points are exact: the box's centre if it is one. Otherwise the centre
+/// on axes on which the cloud is farther from 0 than it is wide (of two numbers within a factor of 2 the difference
+/// is exact; Sterbenz 1974), and 0 on the others.
+Vec3 exact_origin(std::span<const Vec3> points, const Box3& box, const Threads& threads) {
+  const Vec3 centre = box.centre();
+  const auto rounded = sum_blocks<std::uint64_t>(threads, points.size(), [&](std::size_t begin, std::size_t end) {
+    std::uint64_t count = 0;
+    for (std::size_t i = begin; i < end; ++i) count += is_finite(points[i]) && !is_exact_difference(points[i], centre);
+    return count;
+  });
+  if (rounded == 0) return centre;
+  const auto far = [&](double c) { return std::fabs(c) > box.diagonal() ? c : 0.0; };
+  return {far(centre.x), far(centre.y), far(centre.z)};
+}
+
 } // namespace
 
 Samples prepare_samples(std::span<const Vec3> points, const Threads& threads) {
@@ -51,7 +67,7 @@ Samples prepare_samples(std::span<const Vec3> points, const Threads& threads) {
   const std::size_t finite = points.size() - samples.nonfinite;
   if (finite == 0) throw Error(ErrorKind::input, "samples", "no finite point", "give at least 5 distinct points");
   check_extent(samples.bounds);
-  samples.origin = samples.bounds.centre();
+  samples.origin = exact_origin(points, samples.bounds, threads);
   const Box3 box{samples.bounds.min - samples.origin, samples.bounds.max - samples.origin};
 
   std::vector<Keyed> keyed;
@@ -67,7 +83,6 @@ Samples prepare_samples(std::span<const Vec3> points, const Threads& threads) {
   for (const Keyed& k : keyed) {
     if (!samples.positions.empty() && samples.positions.raw().back() == k.position) {
       ++samples.duplicates;
-      samples.fused += points[k.row] != points[samples.source.raw().back()];
       continue;
     }
     samples.positions.raw().push_back(k.position);

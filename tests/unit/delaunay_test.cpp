@@ -43,7 +43,7 @@ void expect_canonical(const Tetrahedralization& t) {
     ASSERT_EQ(CGAL::orientation(p(0), p(1), p(2), p(3)), CGAL::POSITIVE);
     sum += clouds::volume(t, TetrahedronIndex{i});
   }
-  const double side = 2 * t.positions.raw().back().x;
+  const double side = t.positions.raw().back().x - t.positions.raw()[t.sample_count].x;
   EXPECT_NEAR(sum / (side * side * side), 1, 1e-12);
 }
 

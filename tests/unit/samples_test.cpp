@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <eigencrust/error.h>
 #include <gmock/gmock.h>
+#include <cmath>
 
 #include <limits>
 #include <numeric>
 
 #include "clouds.h"
+#include "geometry/exact_difference.h"
 #include "geometry/spatial_order.h"
 #include "support.h"
 
@@ -56,6 +58,25 @@ TEST(Samples, OriginIsTheMiddleOfTheBox) {
   const Samples samples = prepare_samples(clouds::moved(five, {100, 200, 300}), Threads(1));
   EXPECT_EQ(samples.origin, (Vec3{102, 202, 302}));
   EXPECT_EQ(samples.bounds.min, (Vec3{100, 200, 300}));
+}
+
+// Moved to the middle of their box, points of double precision would be rounded, differ a little less, and their
+// triangles could cross.
+TEST(Samples, LoseNothingByTheOrigin) {
+  const Points box = clouds::random_box(500, 8);
+  for (const double offset : {0.0, 0.3, 1.7, 3.4, 3.6, 20.0, 1e6})
+    for (const Vec3& direction : {Vec3{1, 0, 0}, Vec3{1, -1, 1}, Vec3{0, 0.01, -1}}) {
+      Points points = clouds::moved(box, offset * direction);
+      points.push_back(points[7] + Vec3{0, 1e-300, 0});                               // far from 0 the same point
+      points.push_back({points[7].x, points[7].y, std::nextafter(points[7].z, 1e9)}); // never
+      const Samples samples = prepare_samples(points, Threads(2));
+      EXPECT_GE(samples.positions.size(), 501u);
+      for (std::uint32_t i = 0; i < samples.positions.size(); ++i) {
+        const Vec3& point = points[samples.source.raw()[i]];
+        EXPECT_TRUE(is_exact_difference(point, samples.origin)) << offset;
+        EXPECT_EQ(samples.positions.raw()[i] + samples.origin, point);
+      }
+    }
 }
 
 TEST(Samples, OrderDependsNeitherOnRowsNorOnThreads) {
