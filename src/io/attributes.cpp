@@ -223,6 +223,21 @@ void append_scan(PointCloud& cloud, PointCloud next) {
 
 namespace io {
 
+ScalarType attribute_type(NumberKind kind, std::size_t bytes) {
+  if (kind == NumberKind::real) return bytes == 8 ? ScalarType::float64 : ScalarType::float32;
+  const bool is_signed = kind == NumberKind::whole;
+  switch (bytes) {
+    case 1:
+      return is_signed ? ScalarType::int8 : ScalarType::uint8;
+    case 2:
+      return is_signed ? ScalarType::int16 : ScalarType::uint16;
+    case 4:
+      return is_signed ? ScalarType::int32 : ScalarType::uint32;
+    default:
+      return ScalarType::float64;
+  }
+}
+
 void append_rows(PointCloud& cloud, PointCloud next) {
   append_attributes(cloud, next);
   append_sensors(cloud, next);

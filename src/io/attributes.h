@@ -26,6 +26,11 @@ class UniqueNames {
   std::map<std::string, std::uint64_t> last_suffix_; ///< so that many equal names take no quadratic time
 };
 
+enum class NumberKind : std::uint8_t { natural, whole, real }; ///< unsigned, signed, floating
+
+/// Of the attribute that holds numbers of so many bytes: whole ones of 64 bits become float64, real ones of 16 float32.
+ScalarType attribute_type(NumberKind kind, std::size_t bytes);
+
 /// append_scan without the scan numbers.
 void append_rows(PointCloud& cloud, PointCloud next);
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "io/attributes.h"
 #include "io/bytes.h"
 #include "io/scalar.h"
 #include "io/text.h"
@@ -83,19 +84,8 @@ float half_to_float(std::uint16_t bits) {
   return (bits & 0x8000) != 0 ? -size : size;
 }
 
-ScalarType type_of(char kind, std::size_t item) {
-  if (kind == 'f') return item == 8 ? ScalarType::float64 : ScalarType::float32;
-  const bool is_signed = kind == 'i';
-  switch (item) {
-    case 1:
-      return is_signed ? ScalarType::int8 : ScalarType::uint8;
-    case 2:
-      return is_signed ? ScalarType::int16 : ScalarType::uint16;
-    case 4:
-      return is_signed ? ScalarType::int32 : ScalarType::uint32;
-    default:
-      return ScalarType::float64;
-  }
+NumberKind number_kind(char kind) {
+  return kind == 'f' ? NumberKind::real : kind == 'i' ? NumberKind::whole : NumberKind::natural;
 }
 
 } // namespace
@@ -196,7 +186,7 @@ Attribute NpyArray::column(std::uint64_t k, std::string name) const {
   if (swap_) swap_bytes(values, item_);
   Attribute attribute;
   attribute.name = std::move(name);
-  attribute.type = type_of(kind_, item_);
+  attribute.type = attribute_type(number_kind(kind_), item_);
   if (kind_ == 'f' && item_ == 2) {
     attribute.values.resize(n * sizeof(float));
     for (std::uint64_t i = 0; i < n; ++i) {

@@ -29,20 +29,11 @@ bool is_axis(const PcdField& f, char axis) { return f.name.size() == 1 && (f.nam
 bool is_axis(const PcdField& f) { return is_axis(f, 'x') || is_axis(f, 'y') || is_axis(f, 'z'); }
 bool is_padding(const PcdField& f) { return f.name == "_"; }
 
-/// Of the attribute that holds the field; whole numbers of 64 bits become float64.
 ScalarType type_of(const PcdField& f) {
-  if (f.type == 'F') return f.size == 4 ? ScalarType::float32 : ScalarType::float64;
-  const bool is_signed = f.type == 'I';
-  switch (f.size) {
-    case 1:
-      return is_signed ? ScalarType::int8 : ScalarType::uint8;
-    case 2:
-      return is_signed ? ScalarType::int16 : ScalarType::uint16;
-    case 4:
-      return is_signed ? ScalarType::int32 : ScalarType::uint32;
-    default:
-      return ScalarType::float64;
-  }
+  return attribute_type(f.type == 'F'   ? NumberKind::real
+                        : f.type == 'I' ? NumberKind::whole
+                                        : NumberKind::natural,
+                        f.size);
 }
 
 /// Several values per point make a list whose rows are equally long.
