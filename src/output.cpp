@@ -50,7 +50,7 @@ void check_cloud(const PointCloud& cloud) {
   check_sensors(cloud);
 }
 
-void describe_input(const PointCloud& cloud, const Samples& samples, Run& run, Report& report) {
+void describe_input(const PointCloud& cloud, const Samples& samples, Report& report) {
   report.points = cloud.points.size();
   report.duplicates = samples.duplicates;
   report.nonfinite = samples.nonfinite;

@@ -12,7 +12,7 @@ namespace eigencrust {
 
 /// \throws Error{input} when an array of the cloud has the wrong length
 void check_cloud(const PointCloud& cloud);
-void describe_input(const PointCloud& cloud, const Samples& samples, Run& run, Report& report);
+void describe_input(const PointCloud& cloud, const Samples& samples, Report& report);
 void describe_noise(const std::vector<float>& grid_spacing, Run& run);
 /// How far in front of each sample a tetrahedron must begin to count as crossed.
 std::vector<float> crossing_depths(const std::vector<float>& grid_spacing, const Options& options, double spacing,

@@ -18,7 +18,7 @@ FirstHalf first_half(const PointCloud& cloud, const Options& options, Run& run, 
                      const Threads& threads) {
   FirstHalf half;
   Samples samples = run.stage("samples", [&] { return prepare_samples(cloud.points, threads); });
-  describe_input(cloud, samples, run, report);
+  describe_input(cloud, samples, report);
 
   // §3: S+ = samples and cube corners, T = Delaunay(S+). Beside it: how close the samples stand; §3.3: ℓ, of the
   // whole cloud or of each sample

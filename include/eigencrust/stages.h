@@ -145,8 +145,9 @@ using Checkpoint = std::function<void(double)>;
 
 /// §3.2: the eigenvector of the smallest eigenvalue of L x = λ D x. Components of the graph that hold no
 /// supernode are solved on their own; the sign of each of those is arbitrary.
+/// \param graph     lends its edges to the solver and has them back in the end; not if an exception leaves
 /// \param component receives the component of every node, 0 being the one of the supernodes; may be null
-Partition partition_poles(const PoleGraph& graph, const SolverOptions& options, const Threads& threads,
+Partition partition_poles(PoleGraph& graph, const SolverOptions& options, const Threads& threads,
                           std::vector<std::uint32_t>* component = nullptr, const Checkpoint& checkpoint = {});
 
 /// §3.2: labels from the signs of the partition, added to what is known. Nodes of components without a

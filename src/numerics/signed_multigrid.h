@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "numerics/aggregation.h"
@@ -47,6 +48,9 @@ class SignedMultigrid {
 
   [[nodiscard]] const std::vector<Level>& levels() const { return levels_; }
   [[nodiscard]] const Level& finest() const { return levels_.front(); }
+
+  /// The matrix given to the constructor, entries within its rows in any order; the hierarchy is of no use then.
+  BorderedMatrix take_finest() && { return std::move(levels_.front().matrix); }
 
   [[nodiscard]] Workspace workspace() const;
   /// One symmetric cycle from zero: x ≈ M⁻¹ b on `level`. Linear (to single precision) and positive definite

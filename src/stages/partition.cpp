@@ -26,7 +26,8 @@ IterationControl control_of(const SolverOptions& options, const Checkpoint& chec
   return control;
 }
 
-IterationResult solve(BorderedMatrix matrix, const SolverOptions& options, const Threads& threads,
+/// \param matrix comes back with the entries within its rows in any order
+IterationResult solve(BorderedMatrix& matrix, const SolverOptions& options, const Threads& threads,
                       const Checkpoint& checkpoint) {
   Vector mass = full_diagonal(matrix);
   IterationControl control = control_of(options, checkpoint);
@@ -35,8 +36,10 @@ IterationResult solve(BorderedMatrix matrix, const SolverOptions& options, const
     control.max_steps = std::max(control.max_steps, 10000u);
     return smallest_eigenvector_lanczos(matrix, mass, control, threads);
   }
-  const SignedMultigrid hierarchy(std::move(matrix), std::move(mass), threads);
-  return smallest_eigenvector(hierarchy, control, threads);
+  SignedMultigrid hierarchy(std::move(matrix), std::move(mass), threads);
+  IterationResult result = smallest_eigenvector(hierarchy, control, threads);
+  matrix = std::move(hierarchy).take_finest();
+  return result;
 }
 
 void take_figures(const IterationResult& result, Partition& partition) {
@@ -55,12 +58,36 @@ void scale_to_one(Vector& x) {
     for (double& v : x) v /= largest;
 }
 
+struct Entry {
+  std::uint32_t column;
+  float value;
+};
+
 /// Makes all nodes of other components nodes without edges and without mass.
-void mask(BorderedMatrix& matrix, const std::vector<std::uint32_t>& of_node, std::uint32_t component) {
+/// \return their entries, in order
+std::vector<Entry> mask(BorderedMatrix& matrix, const std::vector<std::uint32_t>& of_node, std::uint32_t component) {
+  std::vector<Entry> masked;
   for (std::size_t i = 0; i < of_node.size(); ++i) {
     if (of_node[i] == component) continue;
     matrix.diagonal[i] = 0;
-    for (std::uint64_t e = matrix.row_begin[i]; e < matrix.row_begin[i + 1]; ++e) matrix.value[e] = 0;
+    for (std::uint64_t e = matrix.row_begin[i]; e < matrix.row_begin[i + 1]; ++e) {
+      masked.push_back({matrix.column[e], matrix.value[e]});
+      matrix.value[e] = 0;
+    }
+  }
+  return masked;
+}
+
+/// The entries that mask() took; not the mass.
+void unmask(const std::vector<Entry>& masked, const std::vector<std::uint32_t>& of_node, std::uint32_t component,
+            BorderedMatrix& matrix) {
+  auto entry = masked.begin();
+  for (std::size_t i = 0; i < of_node.size(); ++i) {
+    if (of_node[i] == component) continue;
+    for (std::uint64_t e = matrix.row_begin[i]; e < matrix.row_begin[i + 1]; ++e, ++entry) {
+      matrix.column[e] = entry->column;
+      matrix.value[e] = entry->value;
+    }
   }
 }
 
@@ -74,8 +101,24 @@ void pick(const std::vector<std::uint32_t>& nodes, std::uint32_t n, IterationRes
   result.unsettled.resize(nodes.size());
 }
 
+/// Of the component that most nodes belong to. It is not worth a copy: the graph lends its edges, the few other nodes
+/// are masked out.
+IterationResult solve_in_place(SignedGraph& graph, const Components& components,
+                               const std::vector<std::uint32_t>& nodes, const SolverOptions& options,
+                               const Threads& threads, const Checkpoint& checkpoint) {
+  constexpr std::uint32_t main = 0;
+  BorderedMatrix matrix = borrow_edges(graph, threads);
+  const std::vector<Entry> masked = mask(matrix, components.of_node, main);
+  IterationResult result = solve(matrix, options, threads, checkpoint);
+  unmask(masked, components.of_node, main, matrix);
+  const auto n = static_cast<std::uint32_t>(components.of_node.size());
+  give_back_edges(std::move(matrix), graph, threads);
+  if (components.count > 1) pick(nodes, n, result);
+  return result;
+}
+
 /// Eigenvectors of all components; supernodes belong to component 0.
-Partition partition_components(const SignedGraph& graph, const Components& components, const SolverOptions& options,
+Partition partition_components(SignedGraph& graph, const Components& components, const SolverOptions& options,
                                const Threads& threads, const Checkpoint& checkpoint) {
   Partition partition;
   const std::uint32_t n = graph.node_count();
@@ -87,16 +130,10 @@ Partition partition_components(const SignedGraph& graph, const Components& compo
   for (std::uint32_t i = 0; i < n; ++i) members[components.of_node[i]].push_back(i);
   const auto solve_component = [&](std::uint32_t c) {
     const auto& nodes = members[c];
-    // Most of the graph is not worth a copy; the few other nodes are masked out.
-    if (c == 0 && nodes.size() > n / 2) {
-      BorderedMatrix matrix = signed_laplacian(graph, threads);
-      if (components.count > 1) mask(matrix, components.of_node, c);
-      IterationResult result = solve(std::move(matrix), options, threads, checkpoint);
-      if (components.count > 1) pick(nodes, n, result);
-      return result;
-    }
-    const Subgraph part = extract_component(graph, c, nodes);
-    return solve(signed_laplacian(part.graph, threads), options, threads, checkpoint);
+    if (c == 0 && nodes.size() > n / 2) return solve_in_place(graph, components, nodes, options, threads, checkpoint);
+    Subgraph part = extract_component(graph, c, nodes);
+    BorderedMatrix matrix = signed_laplacian(std::move(part.graph), threads);
+    return solve(matrix, options, threads, checkpoint);
   };
   for (std::uint32_t c = 0; c < components.count; ++c) {
     if (c > 0 && members[c].size() == 1) { // no edge at all: any sign will do
@@ -147,7 +184,7 @@ Partition partition_harmonic(SignedGraph graph, const SolverOptions& options, co
 
 } // namespace
 
-Partition partition_poles(const PoleGraph& graph, const SolverOptions& options, const Threads& threads,
+Partition partition_poles(PoleGraph& graph, const SolverOptions& options, const Threads& threads,
                           std::vector<std::uint32_t>* component, const Checkpoint& checkpoint) {
   Components components = connected_components(graph.graph);
   Partition partition = partition_components(graph.graph, components, options, threads, checkpoint);

@@ -15,7 +15,12 @@ PoleGraph as_pole_graph(SignedGraph graph) { return {std::move(graph), {}}; }
 
 Partition partition_of(const SignedGraph& graph, std::vector<std::uint32_t>* component = nullptr,
                        const SolverOptions& options = {}) {
-  return partition_poles(as_pole_graph(graph), options, Threads(1), component);
+  PoleGraph lending = as_pole_graph(graph);
+  Partition partition = partition_poles(lending, options, Threads(1), component);
+  EXPECT_EQ(lending.graph.row_begin, graph.row_begin); // what it lent came back
+  EXPECT_EQ(lending.graph.column, graph.column);
+  EXPECT_EQ(lending.graph.weight, graph.weight);
+  return partition;
 }
 
 SolverOptions lanczos() {
@@ -137,7 +142,8 @@ TEST(PartitionPoles, CheckpointMayCancel) {
   const Planted p = graphs::planted(2000, 8, 0.05, true, 6);
   for (const SolverOptions& options : {SolverOptions{}, lanczos()}) {
     const auto cancel = [](double) { throw Error(ErrorKind::cancelled, "here", "cancelled", "go on"); };
-    EXPECT_THROW(partition_poles(as_pole_graph(p.graph), options, Threads(2), nullptr, cancel), Error);
+    PoleGraph graph = as_pole_graph(p.graph);
+    EXPECT_THROW(partition_poles(graph, options, Threads(2), nullptr, cancel), Error);
   }
 }
 
