@@ -96,7 +96,7 @@ test_interrupt_leaves_the_old_mesh() {
 test_out_of_memory() {
   sphere 100000 >cloud.xyz
   local limit refused=0 done=0
-  for limit in 60000 100000 150000 200000 260000 330000 420000 4000000; do
+  for limit in 60000 68000 76000 84000 92000 100000 130000 4000000; do
     (
       ulimit -v "$limit"
       run cloud.xyz -o mesh.ply --threads 2
