@@ -120,8 +120,8 @@ int run(const cli::Arguments& all) {
 
 } // namespace
 
-/// Freed arrays stay with the process. Stage after stage takes arrays of the same size, and to clear fresh pages took
-/// the system a tenth of the whole time (docs/speed.md).
+/// Freed arrays stay with the process. Stage after stage takes arrays of the same size, and fresh pages are slow
+/// (docs/decisions/0022).
 void keep_freed_memory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_MAX, 0);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/pole_weights.h"
 #include "geometry/star_search.h"
 #include "parallel/threads.h"
 
@@ -17,12 +18,6 @@ constexpr std::size_t neighbourhood = 8;
 /// handful of points no cell is long, yet they outweigh the weak attraction across their surface.
 double trust(double shorter_pole, double neighbourhood_radius) {
   return std::clamp((shorter_pole / neighbourhood_radius - 1.2) / 2, 0.05, 1.0);
-}
-
-/// Minus the weight of a sample's pole pair in the pole graph (§3.1).
-double weight_of_pair(const Vec3& s, const Sphere& a, const Sphere& b) {
-  const double cosine = -dot(a.centre - s, b.centre - s) / (norm(a.centre - s) * norm(b.centre - s));
-  return std::exp(4 + 4 * std::clamp(cosine, -1.0, 1.0));
 }
 
 struct Evidence {
@@ -53,7 +48,7 @@ double outside_evidence(const Tetrahedralization& t, const VertexStars& stars, c
                  const SampleIndex s{static_cast<std::uint32_t>(i)};
                  const Sphere &a = poles.sphere[pair.first], &b = poles.sphere[pair.second];
                  const double around = search.distance_to_nearest(s, neighbourhood);
-                 const double weight = weight_of_pair(t.positions[s], a, b);
+                 const double weight = -opposite_weight(t.positions[s], a, b);
                  repulsive[i] = {static_cast<float>(trust(std::min(a.radius, b.radius), around) * weight),
                                  static_cast<float>(weight)};
                }

@@ -61,10 +61,6 @@ double weighted_product(const Vector& a, const Vector& d, const Vector& b, const
   });
 }
 
-void add_scaled(double k, const Vector& x, Vector& y, const Threads& threads) {
-  for_each_index(threads, x.size(), [&](std::size_t i) { y[i] += k * x[i]; });
-}
-
 Vector full_diagonal(const BorderedMatrix& matrix) {
   Vector d = matrix.diagonal;
   for (std::uint32_t k = 0; k < matrix.border_size(); ++k) d.push_back(matrix.corner[k][k]);

@@ -39,8 +39,6 @@ void multiply(const BorderedMatrix& matrix, const FloatVector& x, Vector& y, con
 double inner_product(const Vector& a, const Vector& b, const Threads& threads);
 /// Σ a_i d_i b_i in block order.
 double weighted_product(const Vector& a, const Vector& d, const Vector& b, const Threads& threads);
-/// y += k x
-void add_scaled(double k, const Vector& x, Vector& y, const Threads& threads);
 
 /// All diagonal entries, interior then border.
 Vector full_diagonal(const BorderedMatrix& matrix);

@@ -6,6 +6,7 @@
 #include <eigencrust/stages.h>
 
 #include "geometry/distinct_numbers.h"
+#include "geometry/pole_weights.h"
 #include "parallel/threads.h"
 
 namespace eigencrust {
@@ -66,12 +67,6 @@ Lists samples_of_poles(const Poles& poles) {
     for (const PoleIndex p : {poles.of_sample.raw()[s].first, poles.of_sample.raw()[s].second})
       if (p.valid()) lists.item[cursor[p.value]++] = s;
   return lists;
-}
-
-/// Opposite sides: -e^(4+4cosφ), where φ is the angle at which the two spheres through s meet.
-double opposite_weight(const Vec3& s, const Sphere& a, const Sphere& b) {
-  const double cosine = -dot(a.centre - s, b.centre - s) / (norm(a.centre - s) * norm(b.centre - s));
-  return -std::exp(4 + 4 * std::clamp(cosine, -1.0, 1.0));
 }
 
 /// How much an isolated sample's pole pair counts: only as far as its Voronoi cell is long compared with its

@@ -195,7 +195,7 @@ TEST(Multigrid, CycleIsLinearSymmetricAndPositive) {
     ASSERT_GT(hierarchy.levels().size(), 1u);
     const Vector x = random_vector(n + 1, 7), y = random_vector(n + 1, 8);
     Vector sum = x;
-    add_scaled(2.0, y, sum, threads);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += 2 * y[i];
     const VectorXd cx = cycle(hierarchy, x, threads), cy = cycle(hierarchy, y, threads),
                    csum = cycle(hierarchy, sum, threads);
     const double xx = to_eigen(x).dot(cx), yy = to_eigen(y).dot(cy);
