@@ -5,12 +5,12 @@
 #include <eigencrust/memory_forecast.h>
 #include <eigencrust/stages.h>
 
-#include "output.h"
 #include "parallel/threads.h"
 #include "pipeline.h"
-#include "point_results.h"
-#include "run.h"
-#include "snapshots.h"
+#include "points/point_results.h"
+#include "report/output.h"
+#include "report/run.h"
+#include "report/snapshots.h"
 
 namespace eigencrust {
 

@@ -9,8 +9,8 @@
 #include <eigencrust/stages.h>
 #include <eigencrust/validate.h>
 
-#include "run.h"
-#include "sample_measures.h"
+#include "report/run.h"
+#include "samples/measures.h"
 
 namespace eigencrust {
 

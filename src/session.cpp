@@ -6,9 +6,9 @@
 #include <cmath>
 #include <deque>
 
-#include "output.h"
 #include "parallel/threads.h"
 #include "pipeline.h"
+#include "report/output.h"
 
 namespace eigencrust {
 namespace {

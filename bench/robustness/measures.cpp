@@ -8,7 +8,7 @@
 #include <eigencrust/io.h>
 #include <eigencrust/metrics.h>
 
-#include "geometry/circumsphere.h"
+#include "tetrahedra/circumsphere.h"
 #include "geometry/nearest.h"
 #include "parallel/threads.h"
 

@@ -8,9 +8,9 @@
 
 #include <eigencrust/stages.h>
 
-#include "geometry/segment_walk.h"
 #include "parallel/threads.h"
-#include "sample_rows.h"
+#include "samples/rows.h"
+#include "tetrahedra/segment_walk.h"
 
 namespace eigencrust {
 namespace {

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "clouds.h"
-#include "geometry/handle_loops.h"
-#include "stages/surface_part.h"
+#include "repair/handle_loops.h"
+#include "repair/surface_part.h"
 
 namespace eigencrust {
 namespace {

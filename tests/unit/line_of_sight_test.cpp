@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "clouds.h"
-#include "geometry/segment_walk.h"
+#include "tetrahedra/segment_walk.h"
 
 namespace eigencrust {
 namespace {

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "clouds.h"
-#include "geometry/circumsphere.h"
+#include "tetrahedra/circumsphere.h"
 
 namespace eigencrust {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/segment_walk.h"
+#include "tetrahedra/segment_walk.h"
 
 #include <CGAL/Exact_rational.h>
 #include <gmock/gmock.h>

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "output.h"
+#include "report/output.h"
 #include "support.h"
 
 namespace eigencrust {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/star_search.h"
+#include "tetrahedra/star_search.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "clouds.h"
-#include "geometry/circumsphere.h"
+#include "tetrahedra/circumsphere.h"
 
 namespace eigencrust {
 namespace {

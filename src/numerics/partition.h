@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// From signed graphs to one number per node whose sign is the side (§3.2, §3.4).
+#pragma once
+
+#include <eigencrust/stages.h>
+
+#include "numerics/components.h"
+#include "numerics/eigenvector.h"
+
+namespace eigencrust {
+
+IterationControl control_of(const SolverOptions& options, const Checkpoint& checkpoint);
+/// All but the values.
+void take_figures(const IterationResult& result, Partition& partition);
+
+/// Eigenvectors of all components; supernodes belong to component 0.
+/// \param graph lends its edges to the solver and has them back in the end; not if an exception leaves
+Partition partition_components(SignedGraph& graph, const Components& components, const SolverOptions& options,
+                               const Threads& threads, const Checkpoint& checkpoint);
+
+} // namespace eigencrust

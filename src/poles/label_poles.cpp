@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// §3.2: labels from the signs of the first partition.
+#include <algorithm>
+#include <cmath>
+
+#include <eigencrust/stages.h>
+
+#include "parallel/threads.h"
+#include "poles/global_sign.h"
+
+namespace eigencrust {
+namespace {
+
+// Fewer labelled contacts than this share of its nodes say nothing of a component.
+constexpr double least_contacts = 0.5;
+// What the outside supernode reaches by no edge at all, and is no speck, is taken for inside.
+constexpr std::uint32_t least_inside_nodes = 20;
+
+/// Components without a supernode: their labelled face neighbours vote; two thirds decide. Without enough
+/// contacts, one whose nodes are all on one side is inside: the outside is joined to the supernode.
+std::uint64_t label_free_components(const Tetrahedralization& t, const Poles& poles, const PoleGraph& graph,
+                                    const Partition& partition, std::span<const std::uint32_t> component,
+                                    Labels& labels) {
+  std::uint32_t count = 0;
+  for (const std::uint32_t c : component) count = std::max(count, c + 1);
+  if (count <= 1) return 0;
+  // balance > 0: positive values of the component are outside.
+  std::vector<double> balance(count, 0), total(count, 0);
+  std::vector<std::uint32_t> size(count, 0), positive(count, 0);
+  const auto tetrahedron_of = [&](std::uint32_t node) { return poles.tetrahedron[graph.pole.raw()[node]]; };
+  for (std::uint32_t node = 0; node < graph.pole.size(); ++node) {
+    if (component[node] == 0 || partition.value[node] == 0) continue;
+    ++size[component[node]];
+    positive[component[node]] += partition.value[node] > 0;
+    for (const TetrahedronIndex n : t.neighbours[tetrahedron_of(node)]) {
+      if (!n.valid() || labels[n] == Label::unlabelled) continue;
+      const bool agrees = (labels[n] == Label::outside) == (partition.value[node] > 0);
+      balance[component[node]] += agrees ? 1 : -1;
+      total[component[node]] += 1;
+    }
+  }
+  for (std::uint32_t c = 1; c < count; ++c) {
+    if (total[c] >= least_contacts * size[c]) continue;
+    const bool one_sided = positive[c] == 0 || positive[c] == size[c];
+    total[c] = 1;
+    balance[c] = !one_sided || size[c] < least_inside_nodes ? 0 : positive[c] > 0 ? -1 : 1;
+  }
+  std::uint64_t open = 0;
+  std::vector<std::pair<TetrahedronIndex, Label>> decided;
+  for (std::uint32_t node = 0; node < graph.pole.size(); ++node) {
+    const std::uint32_t c = component[node];
+    if (c == 0) continue;
+    if (partition.value[node] == 0 || std::fabs(balance[c]) * 3 < total[c]) {
+      ++open;
+      continue;
+    }
+    const bool outside = (partition.value[node] > 0) == (balance[c] > 0);
+    decided.emplace_back(tetrahedron_of(node), outside ? Label::outside : Label::inside);
+  }
+  for (const auto& [tetrahedron, label] : decided) labels[tetrahedron] = label;
+  return open;
+}
+
+/// How far a node's neighbours agree on its side, in [-1, 1]: Σ w x / Σ |w| |x|, times the node's sign.
+/// It does not depend on how large the vector is hereabouts, so a localized vector does no harm.
+double agreement(const SignedGraph& graph, const Partition& partition, std::uint32_t node) {
+  double sum = 0, size = 0;
+  const auto add = [&](double w, double x) {
+    sum += w * x;
+    size += std::fabs(w * x);
+  };
+  for (std::uint64_t e = graph.row_begin[node]; e < graph.row_begin[node + 1]; ++e)
+    add(static_cast<double>(graph.weight[e]), static_cast<double>(partition.value[graph.column[e]]));
+  for (std::size_t s = 0; s < graph.supernodes.size(); ++s)
+    add(static_cast<double>(graph.supernodes[s].weight[node]), partition.supernode_value[s]);
+  if (size == 0) return 1; // a node without edges contradicts nobody
+  return (partition.value[node] > 0 ? sum : -sum) / size;
+}
+
+} // namespace
+
+PoleLabels label_poles(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles,
+                       const PoleGraph& graph, const Partition& partition, std::span<const std::uint32_t> component,
+                       const Labels& known, GlobalSign global_sign, double min_agreement, const Threads& threads) {
+  PoleLabels result;
+  result.labels = known;
+  // The supernode's own component may be 0 when the vector is localized elsewhere; positive then stands.
+  const double own = partition.supernode_value.empty() || partition.supernode_value[0] >= 0 ? 1 : -1;
+  double outside_sign = own;
+  // An inside supernode settles the matter: both supernodes then have known labels.
+  const bool both_known = graph.graph.supernodes.size() > 1;
+  if (global_sign == GlobalSign::vote && !both_known) {
+    result.vote = outside_evidence(t, stars, poles, graph, partition, known, threads);
+    if (result.vote != 0) outside_sign = result.vote > 0 ? 1 : -1;
+    result.vote = std::fabs(result.vote);
+  }
+  result.reversed = outside_sign != own;
+  std::vector<std::uint8_t> is_sure(graph.pole.size(), 1);
+  if (min_agreement > 0)
+    for_each_index(threads, is_sure.size(), [&](std::size_t node) {
+      is_sure[node] = agreement(graph.graph, partition, static_cast<std::uint32_t>(node)) >= min_agreement;
+    });
+  for (std::uint32_t node = 0; node < graph.pole.size(); ++node) {
+    if ((!component.empty() && component[node] != 0) || partition.value[node] == 0) continue;
+    if (!is_sure[node]) {
+      ++result.contradicted;
+      continue;
+    }
+    const TetrahedronIndex tetrahedron = poles.tetrahedron[graph.pole.raw()[node]];
+    if (known[tetrahedron] != Label::unlabelled) continue; // named after the graph was made, see Session
+    const bool outside = static_cast<double>(partition.value[node]) * outside_sign > 0;
+    result.labels[tetrahedron] = outside ? Label::outside : Label::inside;
+  }
+  result.left_to_stage_two = label_free_components(t, poles, graph, partition, component, result.labels);
+  return result;
+}
+
+} // namespace eigencrust

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// §3.1: the signed graph on the poles.
+#include <algorithm>
+#include <cmath>
+
+#include <eigencrust/stages.h>
+
+#include "geometry/distinct_numbers.h"
+#include "parallel/threads.h"
+#include "poles/pole_weights.h"
+
+namespace eigencrust {
+namespace {
+
+constexpr std::uint32_t no_node = NodeIndex::none;
+constexpr std::uint32_t outside_node = no_node - 1; ///< collapsed into the outside supernode
+constexpr std::uint32_t inside_node = no_node - 2;
+
+/// Compressed lists of 32-bit numbers.
+struct Lists {
+  std::vector<std::uint64_t> begin;
+  std::vector<std::uint32_t> item;
+  std::span<const std::uint32_t> operator[](std::size_t i) const {
+    return {item.data() + begin[i], item.data() + begin[i + 1]};
+  }
+};
+
+/// Delaunay neighbours of every sample, without cube corners.
+Lists sample_neighbours(const Tetrahedralization& t, const VertexStars& stars, const Threads& threads) {
+  Lists lists;
+  lists.begin.assign(t.sample_count + 1, 0);
+  const std::size_t block = block_with_table(t.sample_count);
+  std::vector<std::vector<std::uint32_t>> blocks((t.sample_count + block - 1) / block);
+  for_blocks(threads, t.sample_count, block, [&](std::size_t first, std::size_t last, std::size_t b) {
+    DistinctNumbers distinct(t.sample_count);
+    for (std::size_t s = first; s < last; ++s) {
+      distinct.clear();
+      for (const TetrahedronIndex tetrahedron : stars[SampleIndex{static_cast<std::uint32_t>(s)}])
+        for (const SampleIndex v : t.tetrahedra[tetrahedron])
+          if (v.value != s && !t.is_corner(v)) distinct.add(v.value);
+      const std::vector<std::uint32_t>& around = distinct.numbers();
+      lists.begin[s + 1] = around.size();
+      blocks[b].insert(blocks[b].end(), around.begin(), around.end());
+    }
+  });
+  for (std::size_t s = 0; s < t.sample_count; ++s) lists.begin[s + 1] += lists.begin[s];
+  lists.item.resize(lists.begin.back());
+  threads.run(blocks.size(), [&](std::size_t b) {
+    std::copy(blocks[b].begin(), blocks[b].end(),
+              lists.item.begin() + static_cast<std::ptrdiff_t>(lists.begin[b * block]));
+    blocks[b] = {};
+  });
+  return lists;
+}
+
+/// Samples that chose each pole, increasing.
+Lists samples_of_poles(const Poles& poles) {
+  Lists lists;
+  lists.begin.assign(poles.tetrahedron.size() + 1, 0);
+  for (const PolePair& pair : poles.of_sample)
+    for (const PoleIndex p : {pair.first, pair.second})
+      if (p.valid()) ++lists.begin[p.value + 1];
+  for (std::size_t p = 0; p < poles.tetrahedron.size(); ++p) lists.begin[p + 1] += lists.begin[p];
+  lists.item.resize(lists.begin.back());
+  std::vector<std::uint64_t> cursor(lists.begin.begin(), lists.begin.end() - 1);
+  for (std::uint32_t s = 0; s < poles.of_sample.size(); ++s)
+    for (const PoleIndex p : {poles.of_sample.raw()[s].first, poles.of_sample.raw()[s].second})
+      if (p.valid()) lists.item[cursor[p.value]++] = s;
+  return lists;
+}
+
+/// How much an isolated sample's pole pair counts: only as far as its Voronoi cell is long compared with its
+/// neighbourhood, which an outlier's never is. At the known outside more is asked (docs/decisions/0013).
+double trust_in_isolated(double shorter_pole, double neighbourhood, bool at_outside) {
+  const double ratio = shorter_pole / neighbourhood;
+  return at_outside ? std::clamp((ratio - 1.5) / 2, 0.0, 1.0) : std::clamp(ratio - 0.7, 0.0, 1.0);
+}
+
+/// Same side: e^(4-4cosφ); 0 where the spheres do not meet.
+double same_weight(const Sphere& a, const Sphere& b) {
+  const double d2 = squared_norm(a.centre - b.centre);
+  const double cosine = (d2 - a.radius * a.radius - b.radius * b.radius) / (2 * a.radius * b.radius);
+  if (!(cosine <= 1)) return 0;
+  return std::exp(4 - 4 * std::max(cosine, -1.0));
+}
+
+/// Rows one after the other.
+struct Rows {
+  std::vector<std::uint32_t> column;
+  std::vector<float> weight;
+};
+
+/// Assembles rows one by one from the stars: no pair list, no global sort.
+class RowAssembler {
+ public:
+  RowAssembler(const Tetrahedralization& t, const Poles& poles, const Lists& neighbours, const Lists& samples_of,
+               const std::vector<std::uint32_t>& node_of, std::span<const float> isolated)
+      : t_(t),
+        poles_(poles),
+        neighbours_(neighbours),
+        samples_of_(samples_of),
+        node_of_(node_of),
+        isolated_(isolated),
+        candidates_(node_of.size()) {}
+
+  /// Appends the row of pole p; sums to supernodes are returned through `super`.
+  void append(std::uint32_t p, Rows& rows, std::array<double, 2>& super) {
+    collect(p);
+    super = {0, 0};
+    row_.clear();
+    for (const std::uint32_t q : candidates_.numbers()) {
+      const auto opposite =
+          std::find_if(opposite_.begin(), opposite_.end(), [&](const Opposite& o) { return o.pole == q; });
+      const double w = opposite != opposite_.end() ? weight_of_pair(opposite->sample, p, q)
+                                                   : same_weight(poles_.sphere.raw()[p], poles_.sphere.raw()[q]);
+      if (w == 0) continue;
+      const std::uint32_t node = node_of_[q];
+      if (node == outside_node)
+        super[0] += w;
+      else if (node == inside_node)
+        super[1] += w;
+      else
+        row_.emplace_back(node, static_cast<float>(w));
+    }
+    std::sort(row_.begin(), row_.end());
+    for (const auto& [node, w] : row_) {
+      rows.column.push_back(node);
+      rows.weight.push_back(w);
+    }
+  }
+
+ private:
+  struct Opposite {
+    std::uint32_t pole, sample;
+    friend bool operator<(const Opposite& a, const Opposite& b) {
+      return std::pair(a.pole, a.sample) < std::pair(b.pole, b.sample);
+    }
+  };
+
+  double weight_of_pair(std::uint32_t sample, std::uint32_t p, std::uint32_t q) const {
+    const Sphere &a = poles_.sphere.raw()[p], &b = poles_.sphere.raw()[q];
+    const Vec3& s = t_.positions.raw()[sample];
+    const double w = opposite_weight(s, a, b);
+    if (isolated_.empty() || !(isolated_[sample] > 0)) return w;
+    const double shorter = std::min(distance(a.centre, s), distance(b.centre, s));
+    const bool at_outside = node_of_[p] == outside_node || node_of_[q] == outside_node;
+    return w * trust_in_isolated(shorter, static_cast<double>(isolated_[sample]), at_outside);
+  }
+
+  void collect(std::uint32_t p) {
+    candidates_.clear();
+    opposite_.clear();
+    const auto add = [&](PoleIndex q) {
+      if (q.valid() && q.value != p && node_of_[q.value] != no_node) candidates_.add(q.value);
+    };
+    for (const std::uint32_t s : samples_of_[p]) {
+      const PolePair& pair = poles_.of_sample.raw()[s];
+      const PoleIndex other = pair.first.value == p ? pair.second : pair.first;
+      add(other);
+      if (other.valid()) opposite_.push_back({other.value, s});
+      for (const std::uint32_t neighbour : neighbours_[s]) {
+        add(poles_.of_sample.raw()[neighbour].first);
+        add(poles_.of_sample.raw()[neighbour].second);
+      }
+    }
+    // Pairs chosen by several samples count once, measured at the smallest of them.
+    std::sort(opposite_.begin(), opposite_.end());
+    opposite_.erase(std::unique(opposite_.begin(), opposite_.end(),
+                                [](const Opposite& a, const Opposite& b) { return a.pole == b.pole; }),
+                    opposite_.end());
+  }
+
+  const Tetrahedralization& t_;
+  const Poles& poles_;
+  const Lists &neighbours_, &samples_of_;
+  const std::vector<std::uint32_t>& node_of_;
+  std::span<const float> isolated_;
+  DistinctNumbers candidates_;
+  std::vector<Opposite> opposite_;
+  std::vector<std::pair<std::uint32_t, float>> row_;
+};
+
+/// One large negative edge between the supernodes: as much as all their other edges together (as in §3.4).
+void repel_supernodes(SignedGraph& graph) {
+  double sum = 0;
+  for (const SignedGraph::Supernode& super : graph.supernodes)
+    for (const float w : super.weight) sum += std::fabs(static_cast<double>(w));
+  graph.supernode_weight[0][1] = graph.supernode_weight[1][0] = -std::max(sum, 1.0);
+}
+
+} // namespace
+
+PoleGraph pole_graph(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& known,
+                     std::span<const std::uint8_t> left_out, std::span<const float> isolated, const Threads& threads) {
+  PoleGraph result;
+  std::vector<std::uint32_t> node_of(poles.tetrahedron.size(), no_node);
+  for (std::uint32_t p = 0; p < poles.tetrahedron.size(); ++p) {
+    const TetrahedronIndex tetrahedron = poles.tetrahedron.raw()[p];
+    if (known[tetrahedron] == Label::outside)
+      node_of[p] = outside_node;
+    else if (known[tetrahedron] == Label::inside)
+      node_of[p] = inside_node;
+    else if (left_out.empty() || !left_out[tetrahedron.value]) {
+      node_of[p] = result.pole.size();
+      result.pole.raw().push_back(PoleIndex{p});
+    }
+  }
+  const bool some_inside = std::any_of(known.begin(), known.end(), [](Label l) { return l == Label::inside; });
+  const std::size_t supernodes = some_inside ? 2 : 1;
+  const std::uint32_t nodes = result.pole.size();
+  const Lists neighbours = sample_neighbours(t, stars, threads);
+  const Lists samples_of = samples_of_poles(poles);
+
+  SignedGraph& graph = result.graph;
+  graph.row_begin.assign(nodes + 1, 0);
+  graph.supernodes.assign(supernodes, {std::vector<float>(nodes, 0.0f)});
+  graph.supernode_weight.assign(supernodes, std::vector<double>(supernodes, 0.0));
+  const std::size_t block = block_with_table(nodes);
+  std::vector<Rows> blocks((nodes + block - 1) / block);
+  for_blocks(threads, nodes, block, [&](std::size_t first, std::size_t last, std::size_t b) {
+    RowAssembler assembler(t, poles, neighbours, samples_of, node_of, isolated);
+    std::array<double, 2> super{};
+    for (std::size_t i = first; i < last; ++i) {
+      const std::size_t before = blocks[b].column.size();
+      assembler.append(result.pole.raw()[i].value, blocks[b], super);
+      graph.row_begin[i + 1] = blocks[b].column.size() - before;
+      for (std::size_t k = 0; k < supernodes; ++k) graph.supernodes[k].weight[i] = static_cast<float>(super[k]);
+    }
+  });
+  for (std::uint32_t i = 0; i < nodes; ++i) graph.row_begin[i + 1] += graph.row_begin[i];
+  graph.column.resize(graph.row_begin[nodes]);
+  graph.weight.resize(graph.row_begin[nodes]);
+  threads.run(blocks.size(), [&](std::size_t b) {
+    const auto at = static_cast<std::ptrdiff_t>(graph.row_begin[b * block]);
+    std::copy(blocks[b].column.begin(), blocks[b].column.end(), graph.column.begin() + at);
+    std::copy(blocks[b].weight.begin(), blocks[b].weight.end(), graph.weight.begin() + at);
+    blocks[b] = {};
+  });
+  if (supernodes == 2) repel_supernodes(graph);
+  return result;
+}
+
+} // namespace eigencrust

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// §3: the poles of the samples.
+#include <algorithm>
+#include <optional>
+
+#include <eigencrust/stages.h>
+
+#include "geometry/nearest.h"
+#include "parallel/threads.h"
+#include "tetrahedra/circumsphere.h"
+
+namespace eigencrust {
+namespace {
+
+using Centres = IndexedArray<TetrahedronIndex, Vec3>;
+
+/// \param first another piece of work, begun before all others
+template <class Work>
+Centres circumcentres(const Tetrahedralization& t, const Threads& threads, const Work& first) {
+  Centres centres(t.tetrahedra.size());
+  const std::size_t n = centres.size(), blocks = (n + default_block - 1) / default_block;
+  threads.run(blocks + 1, [&](std::size_t b) {
+    if (b == 0) return first();
+    for (std::size_t i = (b - 1) * default_block; i < std::min(n, b * default_block); ++i) {
+      const auto& [p, q, r, s] = t.tetrahedra.raw()[i];
+      centres.raw()[i] = circumcentre(t.positions[p], t.positions[q], t.positions[r], t.positions[s]);
+    }
+  });
+  return centres;
+}
+
+struct TetrahedronPair {
+  TetrahedronIndex first, second;
+};
+
+/// The farthest circumcentre, and the farthest at more than 90 degrees from it. Stars are in increasing
+/// order, so the strict comparison leaves ties to the smaller index.
+TetrahedronPair pole_tetrahedra(const Vec3& s, std::span<const TetrahedronIndex> star, const Centres& centres) {
+  TetrahedronPair pair;
+  double farthest = -1;
+  for (const TetrahedronIndex t : star) {
+    const double d = squared_norm(centres[t] - s);
+    if (d > farthest) {
+      farthest = d;
+      pair.first = t;
+    }
+  }
+  if (!pair.first.valid()) return pair; // no centre is finite
+  const Vec3 direction = centres[pair.first] - s;
+  farthest = -1;
+  for (const TetrahedronIndex t : star) {
+    const Vec3 offset = centres[t] - s;
+    const double d = squared_norm(offset);
+    if (d > farthest && dot(offset, direction) < 0) {
+      farthest = d;
+      pair.second = t;
+    }
+  }
+  return pair;
+}
+
+/// The farthest pole among those of the samples `near`, and the farthest at more than 90 degrees from it.
+TetrahedronPair widest_pair(const Vec3& s, std::span<const std::uint32_t> near, std::span<const TetrahedronPair> own,
+                            const Centres& centres) {
+  TetrahedronPair pair;
+  double farthest = -1;
+  const auto for_each_pole = [&](auto&& visit) {
+    for (const std::uint32_t j : near)
+      for (const TetrahedronIndex c : {own[j].first, own[j].second})
+        if (c.valid()) visit(c, centres[c] - s);
+  };
+  const auto farther = [&](double d, TetrahedronIndex c, TetrahedronIndex best) {
+    return d > farthest || (d == farthest && c < best);
+  };
+  for_each_pole([&](TetrahedronIndex c, const Vec3& offset) {
+    const double d = squared_norm(offset);
+    if (!farther(d, c, pair.first)) return;
+    farthest = d;
+    pair.first = c;
+  });
+  if (!pair.first.valid()) return pair;
+  const Vec3 direction = centres[pair.first] - s;
+  farthest = -1;
+  for_each_pole([&](TetrahedronIndex c, const Vec3& offset) {
+    const double d = squared_norm(offset);
+    if (!(dot(offset, direction) < 0) || !farther(d, c, pair.second)) return;
+    farthest = d;
+    pair.second = c;
+  });
+  return pair;
+}
+
+/// Replaces the pairs of samples whose reach exceeds the distance to their neighbours.
+void widen_pairs(const Tetrahedralization& t, std::span<const float> reach, const PointTree& tree,
+                 const Centres& centres, std::vector<TetrahedronPair>& pairs, const Threads& threads) {
+  const std::vector<TetrahedronPair> own = pairs;
+  for_each_index(
+      threads, t.sample_count,
+      [&](std::size_t i) {
+        if (!(reach[i] > 0)) return;
+        const Vec3& s = t.positions.raw()[i];
+        const std::vector<std::uint32_t> near = tree.within(s, static_cast<double>(reach[i]));
+        if (near.size() > 1) pairs[i] = widest_pair(s, near, own, centres);
+      },
+      512);
+}
+
+} // namespace
+
+Poles find_poles(const Tetrahedralization& t, const VertexStars& stars, std::span<const float> reach,
+                 const Threads& threads) {
+  const bool some_reach = std::any_of(reach.begin(), reach.end(), [](float r) { return r > 0; });
+  std::optional<PointTree> tree;
+  const Centres centres = circumcentres(t, threads, [&] {
+    if (some_reach) tree.emplace(std::span(t.positions.raw()).first(t.sample_count));
+  });
+  std::vector<TetrahedronPair> pairs(t.sample_count);
+  for_each_index(threads, t.sample_count, [&](std::size_t i) {
+    const SampleIndex s{static_cast<std::uint32_t>(i)};
+    pairs[i] = pole_tetrahedra(t.positions[s], stars[s], centres);
+  });
+  if (tree) widen_pairs(t, reach, *tree, centres, pairs, threads);
+  Poles poles;
+  poles.of_sample = IndexedArray<SampleIndex, PolePair>(t.sample_count);
+  IndexedArray<TetrahedronIndex, PoleIndex> pole_of(t.tetrahedra.size());
+  const auto number = [&](TetrahedronIndex tetrahedron) {
+    if (!tetrahedron.valid()) return PoleIndex{};
+    PoleIndex& pole = pole_of[tetrahedron];
+    if (!pole.valid()) {
+      pole.value = poles.tetrahedron.size();
+      poles.tetrahedron.raw().push_back(tetrahedron);
+    }
+    return pole;
+  };
+  for (std::uint32_t i = 0; i < t.sample_count; ++i) {
+    const PoleIndex first = number(pairs[i].first);
+    poles.of_sample.raw()[i] = {first, number(pairs[i].second)};
+  }
+  poles.sphere = IndexedArray<PoleIndex, Sphere>(poles.tetrahedron.size());
+  for_each_index(threads, poles.tetrahedron.size(), [&](std::size_t p) {
+    const TetrahedronIndex tetrahedron = poles.tetrahedron.raw()[p];
+    const Vec3& centre = centres[tetrahedron];
+    poles.sphere.raw()[p] = {centre, distance(centre, t.positions[t.tetrahedra[tetrahedron][0]])};
+  });
+  return poles;
+}
+
+} // namespace eigencrust

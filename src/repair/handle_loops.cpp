@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "repair/handle_loops.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace eigencrust {
+namespace {
+
+constexpr std::uint32_t none = 0xffffffffu;
+
+struct Edge {
+  std::uint32_t low, high;   ///< vertices
+  std::uint32_t left, right; ///< triangles
+};
+
+std::vector<Edge> edges_of(std::span<const Triangle> triangles, std::size_t vertices, const Threads& threads) {
+  std::vector<Edge> edges;
+  edges.reserve(triangles.size() * 3 / 2);
+  const std::vector<Side> sides = sorted_sides(triangles, vertices, threads);
+  for_each_edge(sides, [&](std::span<const Side> edge) {
+    if (edge.size() == 2) edges.push_back({edge[0].low, edge[0].high, edge[0].triangle(), edge[1].triangle()});
+  });
+  return edges;
+}
+
+/// Breadth-first trees, one for each component, with the depth of every vertex.
+struct Forest {
+  std::vector<std::uint32_t> parent, depth;
+  std::uint32_t trees = 0, isolated = 0; ///< isolated: trees of one vertex
+};
+
+Forest breadth_first(const std::vector<Edge>& edges, std::size_t vertices) {
+  std::vector<std::uint32_t> begin(vertices + 1, 0), neighbour(2 * edges.size());
+  for (const Edge& e : edges) {
+    ++begin[e.low + 1];
+    ++begin[e.high + 1];
+  }
+  for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
+  std::vector<std::uint32_t> place(begin.begin(), begin.end() - 1);
+  for (const Edge& e : edges) {
+    neighbour[place[e.low]++] = e.high;
+    neighbour[place[e.high]++] = e.low;
+  }
+  Forest forest{std::vector<std::uint32_t>(vertices, none), std::vector<std::uint32_t>(vertices, none), 0, 0};
+  std::vector<std::uint32_t> queue;
+  queue.reserve(vertices);
+  for (std::uint32_t root = 0; root < vertices; ++root) {
+    if (forest.depth[root] != none) continue;
+    forest.depth[root] = 0;
+    ++forest.trees;
+    forest.isolated += begin[root] == begin[root + 1];
+    queue.assign(1, root);
+    for (std::size_t i = 0; i < queue.size(); ++i)
+      for (std::uint32_t k = begin[queue[i]]; k < begin[queue[i] + 1]; ++k) {
+        const std::uint32_t v = neighbour[k];
+        if (forest.depth[v] != none) continue;
+        forest.depth[v] = forest.depth[queue[i]] + 1;
+        forest.parent[v] = queue[i];
+        queue.push_back(v);
+      }
+  }
+  return forest;
+}
+
+/// Where the two paths to the root meet, if a loop of at most `longest` edges leads there; else none.
+std::uint32_t meeting(const Forest& forest, std::uint32_t a, std::uint32_t b, std::size_t longest) {
+  for (std::size_t length = 1; length <= longest; ++length) {
+    if (a == b) return a;
+    std::uint32_t& deeper = forest.depth[a] >= forest.depth[b] ? a : b;
+    deeper = forest.parent[deeper];
+  }
+  return none;
+}
+
+/// For each edge off the trees the length of its loop; longest + 1 for all longer ones, 0 for edges of the trees.
+std::vector<std::uint32_t> loop_lengths(const std::vector<Edge>& edges, const Forest& forest, std::uint32_t longest,
+                                        const Threads& threads) {
+  std::vector<std::uint32_t> length(edges.size());
+  for_each_index(threads, edges.size(), [&](std::size_t i) {
+    const Edge& e = edges[i];
+    if (forest.parent[e.low] == e.high || forest.parent[e.high] == e.low) return;
+    const std::uint32_t top = meeting(forest, e.low, e.high, longest);
+    length[i] = top == none ? longest + 1 : forest.depth[e.low] + forest.depth[e.high] + 1 - 2 * forest.depth[top];
+  });
+  return length;
+}
+
+/// Edges off the trees, those with the longest loops first, then by their number.
+std::vector<std::uint32_t> by_length(const std::vector<std::uint32_t>& length, std::uint32_t longest) {
+  std::vector<std::size_t> begin(longest + 3, 0); // by longest + 1 - length
+  for (const std::uint32_t l : length) ++begin[longest + 2 - l];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::uint32_t> edges(begin[longest + 1]);
+  for (std::uint32_t i = 0; i < length.size(); ++i)
+    if (length[i] > 0) edges[begin[longest + 1 - length[i]]++] = i;
+  return edges;
+}
+
+std::vector<std::uint32_t> loop_through(const Forest& forest, const Edge& edge) {
+  const std::uint32_t top = meeting(forest, edge.low, edge.high, forest.depth.size());
+  std::vector<std::uint32_t> loop;
+  for (std::uint32_t v = edge.low; v != top; v = forest.parent[v]) loop.push_back(v);
+  loop.push_back(top);
+  const auto middle = static_cast<std::ptrdiff_t>(loop.size());
+  for (std::uint32_t v = edge.high; v != top; v = forest.parent[v]) loop.push_back(v);
+  std::reverse(loop.begin() + middle, loop.end());
+  return loop;
+}
+
+} // namespace
+
+std::vector<std::vector<std::uint32_t>> handle_loops(std::span<const Triangle> triangles, std::size_t vertices,
+                                                     std::uint32_t longest, const Threads& threads) {
+  const std::vector<Edge> edges = edges_of(triangles, vertices, threads);
+  const Forest forest = breadth_first(edges, vertices);
+  // Euler's formula for closed surfaces: nothing to look for where every piece is a sphere.
+  const auto isolated = static_cast<std::int64_t>(forest.isolated);
+  const std::int64_t euler =
+      static_cast<std::int64_t>(vertices + triangles.size()) - isolated - static_cast<std::int64_t>(edges.size());
+  if (edges.size() * 2 == triangles.size() * 3 && euler == 2 * (static_cast<std::int64_t>(forest.trees) - isolated))
+    return {};
+  // The cotree takes the edges with the longest loops, so that the shortest are left.
+  const std::vector<std::uint32_t> length = loop_lengths(edges, forest, longest, threads);
+  DisjointSets cotree(triangles.size());
+  std::vector<std::vector<std::uint32_t>> loops;
+  for (const std::uint32_t i : by_length(length, longest)) {
+    const Edge& e = edges[i];
+    if (cotree.find(e.left) != cotree.find(e.right))
+      cotree.unite(e.left, e.right);
+    else if (length[i] <= longest)
+      loops.push_back(loop_through(forest, e));
+  }
+  std::reverse(loops.begin(), loops.end());
+  return loops;
+}
+
+} // namespace eigencrust

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the samples do not bear out, and how it is cut away (not in the paper; docs/decisions/0020).
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <eigencrust/stages.h>
+
+#include "geometry/mesh_topology.h"
+#include "parallel/threads.h"
+#include "surface/drop_triangles.h"
+
+namespace eigencrust {
+namespace {
+
+// Longer edges, in local spacings, lead over what was not sampled; the support of such a triangle is at most 1/4.
+constexpr double longest_edge = 10;
+constexpr float least_support = 0.25f;
+// A scanner sees no surface at a flatter angle; triangles that do lie so lead from one depth to another.
+const double flattest = std::cos(85 * std::numbers::pi / 180);
+
+std::array<Vec3, 3> corners(const TriangleMesh& mesh, std::size_t i) {
+  const auto& [a, b, c] = mesh.triangles[i];
+  return {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
+}
+
+double area(const TriangleMesh& mesh, std::size_t i) {
+  const auto [a, b, c] = corners(mesh, i);
+  return norm(cross(b - a, c - a)) / 2;
+}
+
+/// The lines of each sample, which stand together.
+std::span<const SightLine> lines_of(std::span<const SightLine> lines, SampleIndex sample) {
+  const auto [begin, end] = std::equal_range(lines.begin(), lines.end(), SightLine{sample, 0, {}},
+                                             [](const auto& a, const auto& b) { return a.sample < b.sample; });
+  return {begin, end};
+}
+
+/// Do lines from the vertices meet the front, at no flatter angle: from one vertex, or in a one-sided scan from each
+/// that has any? Elsewhere a sharp edge belongs to scans from either side.
+bool is_seen(const Tetrahedralization& t, std::span<const SightLine> lines, bool one_sided, const Surface& surface,
+             std::size_t i) {
+  const auto [a, b, c] = corners(surface.mesh, i);
+  const Vec3 normal = cross(b - a, c - a);
+  const double size = norm(normal);
+  const auto meets = [&](const SightLine& line) {
+    const Vec3 way = line.target - t.positions[line.sample];
+    return dot(way, normal) >= flattest * norm(way) * size;
+  };
+  int seen = 0, unseen = 0;
+  for (const std::uint32_t v : surface.mesh.triangles[i]) {
+    const auto own = lines_of(lines, surface.sample_of[v]);
+    if (own.empty()) continue;
+    ++(std::any_of(own.begin(), own.end(), meets) ? seen : unseen);
+  }
+  return unseen == 0 || (seen > 0 && !one_sided);
+}
+
+/// At a vertex with several fans all but the one with the most triangles (the first of equal ones) go.
+/// \return how many triangles
+std::size_t mark_smaller_fans(const TriangleMesh& mesh, std::vector<std::uint8_t>& gone) {
+  const auto& triangles = mesh.triangles;
+  if (triangles.empty()) return 0;
+  DisjointSets fans(3 * triangles.size());
+  const std::vector<Side> sides = sorted_sides(triangles, mesh.vertices.size(), Threads(1));
+  for_each_edge(sides, [&](std::span<const Side> edge) {
+    if (edge.size() != 2) return;
+    fans.unite(edge[0].corner_at_low(), edge[1].corner_at_low());
+    fans.unite(edge[0].corner_at_high(), edge[1].corner_at_high());
+  });
+  std::vector<std::uint32_t> size(3 * triangles.size(), 0), largest(mesh.vertices.size(), SampleIndex::none);
+  for (std::uint32_t corner = 0; corner < size.size(); ++corner) ++size[fans.find(corner)];
+  for (std::uint32_t corner = 0; corner < size.size(); ++corner) {
+    if (size[corner] == 0) continue; // not the first of its fan
+    std::uint32_t& best = largest[triangles[corner / 3][corner % 3]];
+    if (best == SampleIndex::none || size[corner] > size[best]) best = corner;
+  }
+  std::size_t marked = 0;
+  for (std::uint32_t corner = 0; corner < size.size(); ++corner) {
+    if (fans.find(corner) == largest[triangles[corner / 3][corner % 3]] || gone[corner / 3]) continue;
+    gone[corner / 3] = 1;
+    ++marked;
+  }
+  return marked;
+}
+
+} // namespace
+
+std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& t, const Neighbourhoods& neighbourhoods,
+                                                std::span<const SightLine> lines, bool one_sided,
+                                                const Surface& surface, const Threads& threads) {
+  std::vector<std::uint8_t> unsupported(surface.mesh.triangles.size(), 0);
+  for_each_index(threads, unsupported.size(), [&](std::size_t i) {
+    const std::array<Vec3, 3> p = corners(surface.mesh, i);
+    double longest = 0, spacing = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const SampleIndex s = surface.sample_of[surface.mesh.triangles[i][k]];
+      longest = std::max(longest, distance(p[k], p[(k + 1) % 3]));
+      spacing = std::min(spacing, neighbourhoods.isolated[s.value] > 0
+                                      ? neighbourhoods.typical
+                                      : static_cast<double>(neighbourhoods.spacing[s.value]));
+    }
+    unsupported[i] = surface.support[i] < least_support || longest > longest_edge * spacing ||
+                     !is_seen(t, lines, one_sided, surface, i);
+  });
+  return unsupported;
+}
+
+double share_of_area(const Surface& surface, std::span<const std::uint8_t> marked) {
+  double part = 0, whole = 0;
+  for (std::size_t i = 0; i < marked.size(); ++i) {
+    const double a = area(surface.mesh, i);
+    whole += a;
+    if (marked[i]) part += a;
+  }
+  return whole > 0 ? part / whole : 0;
+}
+
+void trim(std::vector<std::uint8_t> unsupported, Surface& surface) {
+  do {
+    drop_triangles(unsupported, surface);
+    unsupported.assign(surface.mesh.triangles.size(), 0);
+  } while (mark_smaller_fans(surface.mesh, unsupported) > 0);
+}
+
+} // namespace eigencrust

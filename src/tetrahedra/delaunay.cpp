@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// §3: the Delaunay tetrahedralization. The only file that knows which code computes it.
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_cell_base_with_info_3.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+
+#include <algorithm>
+#include <bit>
+#include <memory>
+
+#include <eigencrust/error.h>
+#include <eigencrust/stages.h>
+
+#include "geometry/predicates.h"
+#include "parallel/threads.h"
+
+namespace eigencrust {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::uint32_t, Kernel>;
+using CellBase =
+    CGAL::Triangulation_cell_base_with_info_3<std::uint32_t, Kernel, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
+using Delaunay = CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
+
+constexpr std::uint32_t none = TetrahedronIndex::none;
+// "Much wider than the cloud" (§3): no sample may lie near a side.
+constexpr double cube_half_side_in_diagonals = 10;
+
+/// Random insertion rounds, each along the Hilbert curve (BRIO; Amenta, Choi, Rote 2003): the round of a
+/// sample is a hash of its number, later rounds being eight times larger.
+unsigned insertion_round(std::uint32_t i) {
+  std::uint64_t h = (i + 1) * 0x9e3779b97f4a7c15ull;
+  h = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ull;
+  return static_cast<unsigned>(std::countr_zero((h ^ (h >> 29)) | 1ull << 60)) / 3;
+}
+
+void insert_all(Delaunay& delaunay, const IndexedArray<SampleIndex, Vec3>& positions, std::uint32_t samples) {
+  Delaunay::Cell_handle hint;
+  const auto insert = [&](std::uint32_t i) {
+    const Vec3& p = positions.raw()[i];
+    const Delaunay::Vertex_handle v = delaunay.insert({p.x, p.y, p.z}, hint);
+    v->info() = i;
+    hint = v->cell();
+  };
+  for (std::uint32_t i = samples; i < positions.size(); ++i) insert(i);
+  std::vector<std::vector<std::uint32_t>> rounds(21);
+  for (std::uint32_t i = 0; i < samples; ++i) rounds[insertion_round(i)].push_back(i);
+  for (std::size_t r = rounds.size(); r-- > 0;)
+    for (const std::uint32_t i : rounds[r]) insert(i);
+}
+
+/// Which vertex goes where so that the smallest comes first and the second smallest second. Only even
+/// permutations are used, so the orientation stays; with it the form is unique.
+std::array<int, 4> canonical_order(const std::array<std::uint32_t, 4>& v) {
+  static constexpr std::array<std::array<int, 4>, 12> even{{{0, 1, 2, 3},
+                                                            {0, 2, 3, 1},
+                                                            {0, 3, 1, 2},
+                                                            {1, 0, 3, 2},
+                                                            {1, 2, 0, 3},
+                                                            {1, 3, 2, 0},
+                                                            {2, 0, 1, 3},
+                                                            {2, 1, 3, 0},
+                                                            {2, 3, 0, 1},
+                                                            {3, 0, 2, 1},
+                                                            {3, 1, 0, 2},
+                                                            {3, 2, 1, 0}}};
+  const auto smaller = [&](const std::array<int, 4>& p, const std::array<int, 4>& q) {
+    return std::pair(v[static_cast<std::size_t>(p[0])], v[static_cast<std::size_t>(p[1])]) <
+           std::pair(v[static_cast<std::size_t>(q[0])], v[static_cast<std::size_t>(q[1])]);
+  };
+  return *std::min_element(even.begin(), even.end(), smaller);
+}
+
+/// Cells in the engine's order, in canonical form; cells beyond the hull have no number.
+void copy_cells(Delaunay& delaunay, Tetrahedralization& result, const Threads& threads) {
+  std::vector<Delaunay::Cell_handle> cells;
+  cells.reserve(delaunay.tds().number_of_cells());
+  for (auto c = delaunay.all_cells_begin(); c != delaunay.all_cells_end(); ++c) {
+    if (delaunay.is_infinite(c)) {
+      c->info() = none;
+      continue;
+    }
+    if (cells.size() >= none - 1)
+      throw Error(ErrorKind::memory, "delaunay", "more than 4 billion tetrahedra", "split the cloud");
+    c->info() = static_cast<std::uint32_t>(cells.size());
+    cells.push_back(c);
+  }
+  auto& tetrahedra = result.tetrahedra.raw();
+  auto& neighbours = result.neighbours.raw();
+  tetrahedra.resize(cells.size());
+  neighbours.resize(cells.size());
+  for_each_index(threads, cells.size(), [&](std::size_t i) {
+    const Delaunay::Cell_handle c = cells[i];
+    std::array<std::uint32_t, 4> v{};
+    for (int k = 0; k < 4; ++k) v[static_cast<std::size_t>(k)] = c->vertex(k)->info();
+    const std::array<int, 4> order = canonical_order(v);
+    for (std::size_t k = 0; k < 4; ++k) {
+      tetrahedra[i][k] = SampleIndex{v[static_cast<std::size_t>(order[k])]};
+      neighbours[i][k] = TetrahedronIndex{c->neighbor(order[k])->info()};
+    }
+  });
+}
+
+/// Tetrahedra by their vertices: by the first with counting, then within each first vertex.
+std::vector<std::uint32_t> sorted_order(const Tetrahedralization& t, const Threads& threads) {
+  const auto& tetrahedra = t.tetrahedra.raw();
+  const std::size_t vertices = t.positions.size();
+  std::vector<std::uint32_t> begin(vertices + 1, 0);
+  for (const auto& v : tetrahedra) ++begin[v[0].value + 1];
+  for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
+  std::vector<std::uint32_t> order(tetrahedra.size());
+  std::vector<std::uint32_t> cursor(begin.begin(), begin.end() - 1);
+  for (std::uint32_t i = 0; i < tetrahedra.size(); ++i) order[cursor[tetrahedra[i][0].value]++] = i;
+  for_each_index(threads, vertices, [&](std::size_t v) {
+    std::sort(order.begin() + begin[v], order.begin() + begin[v + 1],
+              [&](std::uint32_t a, std::uint32_t b) { return tetrahedra[a] < tetrahedra[b]; });
+  });
+  return order;
+}
+
+/// From the engine's order, which depends on the order of insertion, to one that does not.
+void sort_tetrahedra(Tetrahedralization& t, const Threads& threads) {
+  const std::vector<std::uint32_t> order = sorted_order(t, threads);
+  std::vector<std::uint32_t> rank(order.size());
+  for_each_index(threads, order.size(), [&](std::size_t i) { rank[order[i]] = static_cast<std::uint32_t>(i); });
+  std::vector<std::array<SampleIndex, 4>> tetrahedra(order.size());
+  for_each_index(threads, order.size(), [&](std::size_t i) { tetrahedra[i] = t.tetrahedra.raw()[order[i]]; });
+  t.tetrahedra.raw() = std::move(tetrahedra);
+  std::vector<std::array<TetrahedronIndex, 4>> neighbours(order.size());
+  for_each_index(threads, order.size(), [&](std::size_t i) {
+    neighbours[i] = t.neighbours.raw()[order[i]];
+    for (TetrahedronIndex& n : neighbours[i])
+      if (n.valid()) n = TetrahedronIndex{rank[n.value]};
+  });
+  t.neighbours.raw() = std::move(neighbours);
+}
+
+} // namespace
+
+Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const std::function<void()>& beside) {
+  const int dimension = affine_dimension(samples.positions.raw());
+  if (dimension < 3)
+    throw Error(ErrorKind::input, "delaunay", dimension < 2 ? "all points are collinear" : "all points are coplanar",
+                "give points that surround a volume");
+  Tetrahedralization result;
+  result.origin = samples.origin;
+  result.sample_count = samples.positions.size();
+  result.positions = std::move(samples.positions);
+  result.source = std::move(samples.source);
+  const double h = cube_half_side_in_diagonals * samples.bounds.diagonal();
+  const Vec3 middle = samples.bounds.centre() - samples.origin;
+  for (const double x : {-h, h})
+    for (const double y : {-h, h})
+      for (const double z : {-h, h}) result.positions.raw().push_back(middle + Vec3{x, y, z});
+  auto engine = std::make_unique<Delaunay>();
+  Delaunay& delaunay = *engine;
+  threads.run(beside ? 2 : 1, [&](std::size_t task) {
+    if (task == 0)
+      insert_all(delaunay, result.positions, result.sample_count);
+    else
+      beside();
+  });
+  if (delaunay.number_of_vertices() != result.positions.size())
+    throw Error(ErrorKind::guarantee, "delaunay", "a sample was lost", "report this as a fault of the program");
+  copy_cells(delaunay, result, threads);
+  engine.reset(); // its half a kilobyte per sample is not needed beside ours
+  sort_tetrahedra(result, threads);
+  return result;
+}
+
+} // namespace eigencrust
