@@ -120,7 +120,8 @@ struct SightRule {
 /// Weights::paper all lines count and nothing else.
 struct SightLabels {
   Labels labels;
-  std::uint64_t disbelieved = 0; ///< lines
+  std::uint64_t disbelieved = 0;         ///< lines
+  std::uint64_t outside = 0, inside = 0; ///< tetrahedra that the lines made so
 };
 SightLabels line_of_sight(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
                           std::span<const SightLine> lines, const SightCrossings& crossings, const SightRule& rule,
@@ -194,10 +195,13 @@ FinalLabels label_tetrahedra(const TetrahedronGraph& graph, const Partition& par
 /// Where noise exceeds the spacing (`reach` > 0, see find_poles): moves the boundary between inside and outside to
 /// the middle of the samples, half of them on either side, and smooths it at the scale of a few spacings. The harmonic
 /// values leave it on the inner side, and nowhere in thin parts. Only tetrahedra that the first stage left open
-/// (`first`) change (not in the paper). \return how many changed sides
-std::uint64_t centre_in_noise(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
-                              std::span<const float> reach, std::span<const float> isolated, const Labels& first,
-                              const Threads& threads, FinalLabels& labels);
+/// (`first`) change (not in the paper).
+struct CentringCounts {
+  std::uint64_t relabelled = 0; ///< tetrahedra
+};
+CentringCounts centre_in_noise(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
+                               std::span<const float> reach, std::span<const float> isolated, const Labels& first,
+                               const Threads& threads, FinalLabels& labels);
 
 /// §3.5: relabels tetrahedra until the surface is a manifold. With the paper's rule labels only go from
 /// inside to outside; with `cheapest` a tetrahedron may once go the other way, so both end. What is `known` gives way
@@ -205,6 +209,7 @@ std::uint64_t centre_in_noise(const Tetrahedralization& tetrahedralization, cons
 struct ManifoldCounts {
   std::uint64_t edges = 0, vertices = 0; ///< repairs of either kind
   std::uint64_t relabelled = 0;          ///< tetrahedra
+  std::uint64_t overruled = 0;           ///< tetrahedra that are not what they are known to be
 };
 ManifoldCounts make_manifold(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
                              const Labels& known, ManifoldRule rule, FinalLabels& labels, const Threads& threads,
@@ -212,26 +217,34 @@ ManifoldCounts make_manifold(const Tetrahedralization& tetrahedralization, const
 
 /// Closes handles that no pole vouches for: along short loops of the surface the tetrahedra that the first stage
 /// left open (`first`) change sides, if that takes a handle away and leaves a manifold; the cheaper of filling and
-/// cutting, by Σ |value|. Expects a manifold (not in the paper). \return how many
-std::uint64_t close_handles(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
-                            const Labels& first, const Labels& known, std::span<const float> grid_spacing,
-                            ManifoldRule rule, FinalLabels& labels, const Threads& threads,
-                            const Checkpoint& checkpoint = {});
+/// cutting, by Σ |value|. Expects a manifold (not in the paper).
+struct HandleCounts {
+  std::uint64_t closed = 0;
+};
+HandleCounts close_handles(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
+                           const Labels& first, const Labels& known, std::span<const float> grid_spacing,
+                           ManifoldRule rule, FinalLabels& labels, const Threads& threads,
+                           const Checkpoint& checkpoint = {});
 
 /// Takes samples into the surface that it passes by closely: the tetrahedron between such a sample and a
 /// surface triangle changes sides, which neither opens nor joins anything. Only when such samples are at
 /// most `max_share` of those on the surface; more are noise. Isolated samples (may be empty) stay out where they
 /// are more (not in the paper).
-/// \return how many
-std::uint64_t recover_samples(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
-                              const Labels& known, std::span<const float> isolated, double max_share, Labels& labels);
+struct RecoveryCounts {
+  std::uint64_t samples = 0; ///< taken in
+};
+RecoveryCounts recover_samples(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
+                               const Labels& known, std::span<const float> isolated, double max_share, Labels& labels);
 
 /// Cuts off spikes (and fills pits) that end in an isolated sample: where no triangle at it has a support of 0.1 (see
 /// measure_support) and the first stage (`first`) settled no tetrahedron on one side of its star, that side changes,
-/// if the surface stays a manifold with as many handles and pieces (not in the paper). \return how many
-std::uint64_t cut_spikes(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
-                         const Labels& first, const Labels& known, const Neighbourhoods& neighbourhoods,
-                         std::span<const float> grid_spacing, ManifoldRule rule, FinalLabels& labels);
+/// if the surface stays a manifold with as many handles and pieces (not in the paper).
+struct SpikeCounts {
+  std::uint64_t cut = 0;
+};
+SpikeCounts cut_spikes(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
+                       const Labels& first, const Labels& known, const Neighbourhoods& neighbourhoods,
+                       std::span<const float> grid_spacing, ManifoldRule rule, FinalLabels& labels);
 
 /// §3: the faces between inside and outside, counter-clockwise seen from outside; sample_of[v] is the
 /// sample behind vertex v, coordinates are still relative to the origin.
@@ -266,6 +279,11 @@ std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& tetrah
                                                 bool one_sided, const Surface& surface, const Threads& threads);
 /// The share of the surface's area that is marked.
 double share_of_area(const Surface& surface, std::span<const std::uint8_t> marked);
+/// What unsupported_triangles() marked, and its share.
+struct UnsupportedTriangles {
+  std::vector<std::uint8_t> marked;
+  double share_of_area = 0;
+};
 /// Takes away the triangles marked, and then, at vertices with several fans, all but the largest fan: an oriented
 /// manifold surface stays one, with boundary.
 void trim(std::vector<std::uint8_t> unsupported, Surface& surface);

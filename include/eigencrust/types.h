@@ -254,6 +254,7 @@ const char* to_string(SolverStatus status);
 struct Partition {
   std::vector<float> value;                ///< one component per node of the graph; its sign is the side
   std::vector<double> supernode_value;     ///< one per supernode
+  std::uint64_t edges = 0;                 ///< of the graph, those to the supernodes included
   double eigenvalue = 0;                   ///< of D^-1 L; 0 for the harmonic problem
   double residual = 0;                     ///< |D^-1/2 (Lx - λDx)| / |D^1/2 x|; relative residual if harmonic
   std::uint32_t iterations = 0;            ///< steps on the finest level

@@ -200,6 +200,11 @@ SightLabels line_of_sight(const Tetrahedralization& t, const VertexStars& stars,
     if (rule.behind_count > 0 && behind[at] >= rule.behind_count && crossed[at] == 0 && !holds_isolated(at))
       result.labels[at] = Label::inside;
   });
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (known.raw()[i] != Label::unlabelled) continue;
+    result.outside += result.labels.raw()[i] == Label::outside;
+    result.inside += result.labels.raw()[i] == Label::inside;
+  }
   return result;
 }
 

@@ -94,6 +94,13 @@ IterationResult solve_in_place(SignedGraph& graph, const Components& components,
 
 } // namespace
 
+std::uint64_t edge_count(const SignedGraph& graph) {
+  std::uint64_t edges = graph.column.size() / 2;
+  for (const SignedGraph::Supernode& super : graph.supernodes)
+    for (const float w : super.weight) edges += w != 0;
+  return edges;
+}
+
 IterationControl control_of(const SolverOptions& options, const Checkpoint& checkpoint) {
   IterationControl control;
   control.stop_on_stable_signs = options.stop_on_stable_signs;

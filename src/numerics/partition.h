@@ -10,6 +10,9 @@
 
 namespace eigencrust {
 
+/// Those to the supernodes included.
+std::uint64_t edge_count(const SignedGraph& graph);
+
 IterationControl control_of(const SolverOptions& options, const Checkpoint& checkpoint);
 /// All but the values.
 void take_figures(const IterationResult& result, Partition& partition);

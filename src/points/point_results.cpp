@@ -3,17 +3,20 @@
 
 #include <limits>
 
-#include "parallel/threads.h"
 #include "samples/rows.h"
 
 namespace eigencrust {
+namespace {
 
-void add_point_results(const PointCloud& cloud, const Tetrahedralization& t, const Surface& surface,
-                       std::span<const float> grid_spacing, const Threads& threads, Result& result) {
-  const Classification classes = classify_samples(t, surface, grid_spacing, threads);
-  const IndexedArray<SampleIndex, Vec3> normals = orient_samples(t, surface, classes, grid_spacing, threads);
+PointResults results_by_row(const PointCloud& cloud, const Scene& scene, const Surface& surface,
+                            const Threads& threads) {
+  const Tetrahedralization& t = scene.tetrahedralization;
+  const std::vector<float>& grid = scene.measures.grid;
+  const Classification classes = classify_samples(t, surface, grid, threads);
+  const IndexedArray<SampleIndex, Vec3> normals = orient_samples(t, surface, classes, grid, threads);
   const std::vector<SampleIndex> sample = samples_of_rows(cloud, t);
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  PointResults result;
   result.inlier.assign(sample.size(), 0);
   result.confidence.assign(sample.size(), 0);
   result.normals.assign(sample.size(), {nan, nan, nan});
@@ -23,6 +26,15 @@ void add_point_results(const PointCloud& cloud, const Tetrahedralization& t, con
     result.confidence[row] = classes.confidence[sample[row]];
     result.normals[row] = normals[sample[row]];
   });
+  return result;
+}
+
+} // namespace
+
+PointResults point_results(const PointCloud& cloud, const Scene& scene, const Surface& surface,
+                           const Context& context) {
+  if (!context.options.point_results) return {};
+  return context.run.stage("points", [&] { return results_by_row(cloud, scene, surface, context.threads); });
 }
 
 } // namespace eigencrust

@@ -3,14 +3,19 @@
 /// What is said of each input row: is it on the surface, and which way does it look.
 #pragma once
 
-#include <eigencrust/eigencrust.h>
 #include <eigencrust/stages.h>
+
+#include "tetrahedra/scene.h"
 
 namespace eigencrust {
 
-/// Fills result.inlier, confidence and normals.
-/// \param grid_spacing a length per sample, or empty
-void add_point_results(const PointCloud& cloud, const Tetrahedralization& tetrahedralization, const Surface& surface,
-                       std::span<const float> grid_spacing, const Threads& threads, Result& result);
+/// One entry per row, as in Result; all empty unless the options ask for them.
+struct PointResults {
+  std::vector<std::uint8_t> inlier;
+  std::vector<float> confidence;
+  std::vector<Vec3> normals;
+};
+/// The stage points, if the options ask for it.
+PointResults point_results(const PointCloud& cloud, const Scene& scene, const Surface& surface, const Context& context);
 
 } // namespace eigencrust

@@ -10,6 +10,7 @@ Partition partition_poles(PoleGraph& graph, const SolverOptions& options, const 
                           std::vector<std::uint32_t>* component, const Checkpoint& checkpoint) {
   Components components = connected_components(graph.graph);
   Partition partition = partition_components(graph.graph, components, options, threads, checkpoint);
+  partition.edges = edge_count(graph.graph);
   if (component) *component = std::move(components.of_node);
   return partition;
 }

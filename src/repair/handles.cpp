@@ -251,12 +251,12 @@ class HandleClosing {
 
 } // namespace
 
-std::uint64_t close_handles(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles,
-                            const Labels& first, const Labels& known, std::span<const float> grid_spacing,
-                            ManifoldRule rule, FinalLabels& labels, const Threads& threads,
-                            const Checkpoint& checkpoint) {
-  if (grid_spacing.empty()) return 0; // without noise every handle is meant
-  return HandleClosing(t, stars, poles, first, known, grid_spacing, rule, labels, threads).run(checkpoint);
+HandleCounts close_handles(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles,
+                           const Labels& first, const Labels& known, std::span<const float> grid_spacing,
+                           ManifoldRule rule, FinalLabels& labels, const Threads& threads,
+                           const Checkpoint& checkpoint) {
+  if (grid_spacing.empty()) return {}; // without noise every handle is meant
+  return {HandleClosing(t, stars, poles, first, known, grid_spacing, rule, labels, threads).run(checkpoint)};
 }
 
 } // namespace eigencrust

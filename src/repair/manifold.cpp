@@ -77,7 +77,10 @@ ManifoldCounts make_manifold(const Tetrahedralization& t, const VertexStars& sta
   });
   std::vector<std::uint32_t> unsound;
   for (const auto& part : found) unsound.insert(unsound.end(), part.begin(), part.end());
-  return StarRepair(t, stars, poles, known, rule, labels).run(std::move(unsound), nullptr, checkpoint);
+  ManifoldCounts counts = StarRepair(t, stars, poles, known, rule, labels).run(std::move(unsound), nullptr, checkpoint);
+  for (std::size_t i = 0; i < known.size(); ++i)
+    counts.overruled += known.raw()[i] != Label::unlabelled && known.raw()[i] != labels.labels.raw()[i];
+  return counts;
 }
 
 } // namespace eigencrust

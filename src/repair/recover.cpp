@@ -85,9 +85,9 @@ class Recovery {
 
 } // namespace
 
-std::uint64_t recover_samples(const Tetrahedralization& t, const VertexStars& stars, const Labels& known,
-                              std::span<const float> isolated, double max_share, Labels& labels) {
-  if (!(max_share > 0)) return 0;
+RecoveryCounts recover_samples(const Tetrahedralization& t, const VertexStars& stars, const Labels& known,
+                               std::span<const float> isolated, double max_share, Labels& labels) {
+  if (!(max_share > 0)) return {};
   Recovery recovery(t, stars, known, labels);
   std::vector<SampleIndex> passed;
   for (std::uint32_t i = 0; i < t.sample_count; ++i) {
@@ -99,9 +99,9 @@ std::uint64_t recover_samples(const Tetrahedralization& t, const VertexStars& st
   const double on_surface = static_cast<double>(t.sample_count - passed.size());
   if (static_cast<double>(passed.size()) > max_share * on_surface) {
     std::erase_if(passed, [&](SampleIndex s) { return !isolated.empty() && isolated[s.value] > 0; });
-    if (static_cast<double>(passed.size()) > share_beside_outliers * max_share * on_surface) return 0;
+    if (static_cast<double>(passed.size()) > share_beside_outliers * max_share * on_surface) return {};
   }
-  std::uint64_t recovered = 0;
+  RecoveryCounts counts;
   for (std::size_t before = passed.size() + 1; passed.size() < before;) {
     before = passed.size();
     std::vector<SampleIndex> left;
@@ -112,10 +112,10 @@ std::uint64_t recover_samples(const Tetrahedralization& t, const VertexStars& st
       else
         left.push_back(s);
     }
-    recovered += passed.size() - left.size();
+    counts.samples += passed.size() - left.size();
     passed = std::move(left);
   }
-  return recovered;
+  return counts;
 }
 
 } // namespace eigencrust

@@ -195,20 +195,20 @@ std::vector<Group> possible_tips(const Tetrahedralization& t, const VertexStars&
 
 } // namespace
 
-std::uint64_t cut_spikes(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& first,
-                         const Labels& known, const Neighbourhoods& neighbourhoods, std::span<const float> grid_spacing,
-                         ManifoldRule rule, FinalLabels& labels) {
+SpikeCounts cut_spikes(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& first,
+                       const Labels& known, const Neighbourhoods& neighbourhoods, std::span<const float> grid_spacing,
+                       ManifoldRule rule, FinalLabels& labels) {
   std::vector<Group> left = possible_tips(t, stars, neighbourhoods, labels.labels);
-  if (left.empty()) return 0;
+  if (left.empty()) return {};
   SpikeCutting cutting(t, stars, poles, first, known, neighbourhoods, grid_spacing, rule, labels);
   // A spike on a spike stands free only after the outer one is gone.
-  std::uint64_t count = 0;
+  SpikeCounts counts;
   for (std::size_t before = left.size() + 1; left.size() < before;) {
     before = left.size();
     std::erase_if(left, [&](const Group& tip) { return cutting.cut(tip); });
-    count += before - left.size();
+    counts.cut += before - left.size();
   }
-  return count;
+  return counts;
 }
 
 } // namespace eigencrust

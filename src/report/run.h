@@ -7,11 +7,14 @@
 #include <chrono>
 #include <exception>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include <eigencrust/observer.h>
 #include <eigencrust/report.h>
 #include <eigencrust/stages.h>
+
+#include "report/describe.h"
 
 namespace eigencrust {
 
@@ -20,14 +23,19 @@ class Run {
  public:
   Run(Report& report, Observer& observer) : report_(report), observer_(observer) {}
 
-  /// Runs one stage; counts are added by the caller through count().
+  /// Runs one stage and writes down what describe() has to say of its result.
   template <class Stage>
   auto stage(const std::string& name, Stage&& work) {
     throw_if_cancelled(observer_, name);
     observer_.stage_begins(name);
     report_.stages.push_back({name, 0, 0, {}, false});
-    const Finish finish{*this, std::chrono::steady_clock::now()};
-    return work();
+    if constexpr (std::is_void_v<decltype(work())>) {
+      timed(work);
+    } else {
+      auto result = timed(work);
+      if constexpr (requires { describe(result, *this); }) describe(result, *this);
+      return result;
+    }
   }
   /// Writes down a stage that ran beside the one before it.
   void add(const std::string& name, double seconds) {
@@ -61,7 +69,23 @@ class Run {
     };
   }
 
+  Report& report() { return report_; }
+  /// Of the last stage.
+  [[nodiscard]] const std::string& name() const { return report_.stages.back().name; }
+
+  /// Writes down how long it took in all.
+  void end() {
+    report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    report_.peak_memory_bytes = peak_memory_bytes();
+  }
+
  private:
+  template <class Work>
+  auto timed(Work&& work) {
+    const Finish finish{*this, std::chrono::steady_clock::now()};
+    return work();
+  }
+
   struct Finish {
     Run& run;
     std::chrono::steady_clock::time_point start;
@@ -79,6 +103,7 @@ class Run {
   };
   Report& report_;
   Observer& observer_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 } // namespace eigencrust

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the samples alone say, measured while they are triangulated.
+/// What the samples alone say.
 #pragma once
 
 #include <vector>
 
 #include <eigencrust/stages.h>
 
-#include "report/run.h"
-
 namespace eigencrust {
 
 struct SampleMeasures {
   Neighbourhoods around;
-  std::vector<float> isolated; ///< those of `around` where the weights ask for them; else empty
+  std::vector<float> isolated;  ///< those of `around` where the weights ask for them; else empty
+  double scan_grid_spacing = 0; ///< the one ℓ that was given, or that of merged scans; 0: none
   /// ℓ of §3.3 at every sample: the one given, else from the noise measured at each sample or, without
   /// local_noise, the one of merged scans; empty where there is none.
   std::vector<float> grid;
@@ -21,9 +20,11 @@ struct SampleMeasures {
       reach; ///< how far each sample looks for its poles; 0 where the noise is below the spacing; empty: nowhere
 };
 
-/// The stages delaunay, neighbourhoods and noise. The first keeps one thread busy; the others run beside it
-/// where there are more. Sets spacing and grid_spacing of the report.
-Tetrahedralization triangulate_and_measure(const PointCloud& cloud, Samples samples, Run& run, Report& report,
-                                           const Threads& threads, SampleMeasures& measures);
+/// Sets around and isolated.
+void measure_neighbourhoods(const Samples& samples, const Options& options, const Threads& threads,
+                            SampleMeasures& measures);
+/// Sets the others; expects those two.
+void measure_noise(const PointCloud& cloud, const Samples& samples, const Options& options, const Threads& threads,
+                   SampleMeasures& measures);
 
 } // namespace eigencrust

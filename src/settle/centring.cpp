@@ -187,13 +187,13 @@ class Centring {
 
 } // namespace
 
-std::uint64_t centre_in_noise(const Tetrahedralization& t, const VertexStars& stars, std::span<const float> reach,
-                              std::span<const float> isolated, const Labels& first, const Threads& threads,
-                              FinalLabels& labels) {
-  if (std::none_of(reach.begin(), reach.end(), [](float r) { return r > 0; })) return 0;
+CentringCounts centre_in_noise(const Tetrahedralization& t, const VertexStars& stars, std::span<const float> reach,
+                               std::span<const float> isolated, const Labels& first, const Threads& threads,
+                               FinalLabels& labels) {
+  if (std::none_of(reach.begin(), reach.end(), [](float r) { return r > 0; })) return {};
   // Where nothing is known to be inside there is no surface to move.
-  if (std::find(first.begin(), first.end(), Label::inside) == first.end()) return 0;
-  return Centring(t, stars, reach, isolated, first, threads, labels).run();
+  if (std::find(first.begin(), first.end(), Label::inside) == first.end()) return {};
+  return {Centring(t, stars, reach, isolated, first, threads, labels).run()};
 }
 
 } // namespace eigencrust

@@ -46,8 +46,12 @@ Partition partition_tetrahedra(SignedGraph graph, SecondStage method, const Solv
     nothing.supernode_value = {1, -1};
     return nothing;
   }
-  if (method == SecondStage::harmonic) return partition_harmonic(std::move(graph), options, threads, checkpoint);
-  return partition_components(graph, connected_components(graph), options, threads, checkpoint);
+  const std::uint64_t edges = edge_count(graph);
+  Partition partition = method == SecondStage::harmonic
+                            ? partition_harmonic(std::move(graph), options, threads, checkpoint)
+                            : partition_components(graph, connected_components(graph), options, threads, checkpoint);
+  partition.edges = edges;
+  return partition;
 }
 
 } // namespace eigencrust

@@ -85,9 +85,9 @@ TEST(RecoveredSamples, LeaveAManifoldAManifoldAndKnownLabelsAlone) {
     Labels known = known_labels(p.t, {}, {}, {}, Threads(1));
     for (std::uint32_t i = 0; i < known.size(); i += 3) known.raw()[i] = labels.labels.raw()[i];
     const Labels old = labels.labels;
-    EXPECT_EQ(recover_samples(p.t, p.stars, known, {}, 0, labels.labels), 0u);
+    EXPECT_EQ(recover_samples(p.t, p.stars, known, {}, 0, labels.labels).samples, 0u);
     EXPECT_EQ(labels.labels.raw(), old.raw());
-    const std::uint64_t count = recover_samples(p.t, p.stars, known, {}, 100, labels.labels);
+    const std::uint64_t count = recover_samples(p.t, p.stars, known, {}, 100, labels.labels).samples;
     for (std::uint32_t i = 0; i < known.size(); ++i)
       if (known.raw()[i] != Label::unlabelled) {
         ASSERT_EQ(labels.labels.raw()[i], known.raw()[i]);

@@ -53,7 +53,7 @@ struct NoisySphere {
   [[nodiscard]] double radius(const Vec3& place) const { return norm(place + p.t.origin); }
   std::uint64_t centre(unsigned threads = 2, std::span<const float> isolated = {}) {
     const Threads team(threads);
-    return centre_in_noise(p.t, p.stars, reach, isolated, first, team, labels);
+    return centre_in_noise(p.t, p.stars, reach, isolated, first, team, labels).relabelled;
   }
   [[nodiscard]] double mean_radius() const {
     const Surface surface = extract_surface(p.t, labels.labels, Threads(2));

@@ -179,7 +179,8 @@ struct Solid {
   }
   std::uint64_t close() {
     return close_handles(p.t, p.stars, p.poles, first, p.known, grid_spacing, ManifoldRule::cheapest, labels,
-                         Threads(2));
+                         Threads(2))
+        .closed;
   }
   [[nodiscard]] MeshSummary summary() const { return summary_of(p.t, labels.labels); }
 };

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "report/output.h"
+#include "samples/check_cloud.h"
 #include "support.h"
 
 namespace eigencrust {

@@ -68,7 +68,7 @@ struct Spike {
     return std::find(s.sample_of.begin(), s.sample_of.end(), tip) != s.sample_of.end();
   }
   std::uint64_t cut() {
-    return cut_spikes(p.t, p.stars, p.poles, first, p.known, neighbourhoods, {}, ManifoldRule::cheapest, labels);
+    return cut_spikes(p.t, p.stars, p.poles, first, p.known, neighbourhoods, {}, ManifoldRule::cheapest, labels).cut;
   }
   void expect_uncut() {
     const FinalLabels before = labels;
@@ -145,7 +145,7 @@ TEST(Spikes, LidsStay) {
   const Threads threads(2);
   const Neighbourhoods around = sample_neighbourhoods(std::span(p.t.positions.raw()).first(p.t.sample_count), threads);
   const Labels before = labels.labels;
-  EXPECT_EQ(cut_spikes(p.t, p.stars, p.poles, first, p.known, around, {}, ManifoldRule::cheapest, labels), 0u);
+  EXPECT_EQ(cut_spikes(p.t, p.stars, p.poles, first, p.known, around, {}, ManifoldRule::cheapest, labels).cut, 0u);
   EXPECT_EQ(labels.labels.raw(), before.raw());
 }
 
@@ -180,7 +180,7 @@ struct Fin {
     const Neighbourhoods around =
         sample_neighbourhoods(std::span(p.t.positions.raw()).first(p.t.sample_count), threads);
     EXPECT_THAT(around.isolated, testing::Each(0.0f)); // none of them alone
-    return cut_spikes(p.t, p.stars, p.poles, first, p.known, around, {}, ManifoldRule::cheapest, labels);
+    return cut_spikes(p.t, p.stars, p.poles, first, p.known, around, {}, ManifoldRule::cheapest, labels).cut;
   }
 };
 

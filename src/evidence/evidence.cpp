@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "evidence/evidence.h"
+
+#include <algorithm>
+
+namespace eigencrust {
+namespace {
+
+Labels named_labels(const Scene& scene, const Options& options, const Threads& threads) {
+  const Tetrahedralization& t = scene.tetrahedralization;
+  Labels labels = known_labels(t, options.outside_points, options.inside_points, options.facade, threads);
+  name_poles(t, scene.poles, options.outside_points, options.inside_points, threads, labels);
+  return labels;
+}
+
+/// How far in front of each sample a tetrahedron must begin to count as crossed.
+std::vector<float> crossing_depths(const std::vector<float>& grid_spacing, const Options& options, double spacing,
+                                   std::size_t samples) {
+  if (options.crossing_depth) return std::vector<float>(samples, static_cast<float>(*options.crossing_depth));
+  std::vector<float> depth(samples, static_cast<float>(2 * spacing));
+  constexpr float noise_in_grid_spacings = 3 / 1.2f; // 3 deviations; a grid spacing is 1.2 of them
+  for (std::size_t i = 0; i < grid_spacing.size(); ++i)
+    depth[i] = std::max(depth[i], noise_in_grid_spacings * grid_spacing[i]);
+  return depth;
+}
+
+LinesOfSight follow_lines(const PointCloud& cloud, const Scene& scene, const Labels& named, const Options& options,
+                          const Threads& threads) {
+  const auto& [t, stars, measures, poles] = scene;
+  const auto depth = crossing_depths(measures.grid, options, measures.around.nearest, t.sample_count);
+  const auto lines = sight_lines(cloud, t, depth, measures.isolated);
+  LinesOfSight sight;
+  if (options.detect_facade) sight.one_sided = one_sided_scan(t, lines);
+  sight.crossings = sight_crossings(t, stars, lines, options.weights, named, threads);
+  const SightRule rule{options.crossing_count, options.behind_count, options.weights, measures.isolated};
+  sight.labels = line_of_sight(t, stars, lines, sight.crossings, rule, named, threads);
+  return sight;
+}
+
+} // namespace
+
+Evidence gather_evidence(const PointCloud& cloud, const Scene& scene, const Context& context) {
+  const auto& [options, run, threads] = context;
+  Evidence evidence;
+  evidence.named = run.stage("evidence", [&] { return named_labels(scene, options, threads); });
+  evidence.labels = evidence.named;
+  if (cloud.sensor_of.empty()) return evidence;
+  LinesOfSight sight =
+      run.stage("line_of_sight", [&] { return follow_lines(cloud, scene, evidence.named, options, threads); });
+  evidence.labels = std::move(sight.labels.labels);
+  evidence.crossings = std::make_shared<const SightCrossings>(std::move(sight.crossings));
+  evidence.one_sided = sight.one_sided;
+  return evidence;
+}
+
+Evidence with_points(const Evidence& before, const Scene& scene, const Context& context) {
+  Evidence evidence = before;
+  evidence.named = named_labels(scene, context.options, context.threads);
+  for (std::uint32_t i = 0; i < evidence.named.size(); ++i) {
+    const Label label = evidence.named.raw()[i];
+    if (label != before.named.raw()[i]) evidence.labels.raw()[i] = label;
+  }
+  return evidence;
+}
+
+Contradictions contradictions(const Evidence& evidence, const Labels& labels, const Threads& threads) {
+  if (!evidence.crossings) return {};
+  return {contradicting_lines(*evidence.crossings, labels, threads), evidence.crossings->begin.size() - 1};
+}
+
+} // namespace eigencrust

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "repair/repair.h"
+
+namespace eigencrust {
+
+FinalLabels repair(const Scene& scene, const Evidence& evidence, const PoleLabels& first, FinalLabels labels,
+                   const Context& context) {
+  const auto& [options, run, threads] = context;
+  const auto& [t, stars, measures, poles] = scene;
+  const Labels& named = evidence.named;
+  const ManifoldRule rule = options.manifold_rule;
+  if (options.manifold)
+    run.stage("manifold",
+              [&] { return make_manifold(t, stars, poles, named, rule, labels, threads, run.checkpoint()); });
+  if (options.manifold && options.close_handles)
+    run.stage("handles", [&] {
+      return close_handles(t, stars, poles, first.labels, named, measures.grid, rule, labels, threads,
+                           run.checkpoint());
+    });
+  run.stage("recover", [&] {
+    return recover_samples(t, stars, evidence.labels, measures.isolated, options.recover_share, labels.labels);
+  });
+  if (options.manifold && !measures.isolated.empty())
+    run.stage("spikes", [&] {
+      return cut_spikes(t, stars, poles, first.labels, named, measures.around, measures.grid, rule, labels);
+    });
+  describe(contradictions(evidence, labels.labels, threads), run);
+  return labels;
+}
+
+} // namespace eigencrust

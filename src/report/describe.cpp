@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report/describe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "evidence/evidence.h"
+#include "points/point_results.h"
+#include "report/run.h"
+#include "samples/measures.h"
+
+namespace eigencrust {
+namespace {
+
+void describe_noise(std::vector<float> grid_spacing, Run& run) {
+  if (grid_spacing.empty()) return;
+  for (const auto& [name, share] : {std::pair{"grid_spacing_q10", 0.1}, std::pair{"grid_spacing_median", 0.5},
+                                    std::pair{"grid_spacing_q90", 0.9}}) {
+    const auto at =
+        grid_spacing.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(grid_spacing.size() - 1));
+    std::nth_element(grid_spacing.begin(), at, grid_spacing.end());
+    run.count("noise", name, static_cast<double>(*at));
+  }
+}
+
+/// What the options promise and the mesh is not.
+std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Options& options) {
+  std::vector<std::string> broken;
+  if (!mesh.closed() && !options.facade && !options.trim) broken.emplace_back("closed");
+  if (options.manifold && !mesh.manifold()) broken.emplace_back("manifold");
+  if (options.manifold && !mesh.oriented()) broken.emplace_back("consistently oriented");
+  return broken;
+}
+
+} // namespace
+
+void describe(const Samples& samples, Run& run) {
+  Report& report = run.report();
+  report.points = samples.positions.size() + samples.duplicates + samples.nonfinite;
+  report.duplicates = samples.duplicates;
+  report.nonfinite = samples.nonfinite;
+  report.bounds = samples.bounds;
+}
+
+void describe(const SampleMeasures& measures, Run& run) {
+  run.report().spacing = measures.around.nearest;
+  run.report().grid_spacing = measures.scan_grid_spacing;
+  describe_noise(measures.grid, run);
+}
+
+void describe(const Tetrahedralization& t, Run& run) { run.count("tetrahedra", t.tetrahedra.size()); }
+
+void describe(const Poles& poles, Run& run) { run.count("poles", poles.tetrahedron.size()); }
+
+void describe(const LinesOfSight& sight, Run& run) {
+  run.report().one_sided = sight.one_sided;
+  run.report().sight_lines = sight.crossings.begin.size() - 1;
+  run.count("lines", static_cast<double>(run.report().sight_lines));
+  run.count("disbelieved", static_cast<double>(sight.labels.disbelieved));
+  run.count("outside", static_cast<double>(sight.labels.outside));
+  run.count("inside", static_cast<double>(sight.labels.inside));
+}
+
+void describe(const Partition& partition, Run& run) {
+  PartitionReport entry;
+  entry.stage = run.name().substr(std::string("partition_").size());
+  entry.nodes = partition.value.size();
+  entry.edges = partition.edges;
+  entry.eigenvalue = partition.eigenvalue;
+  entry.residual = partition.residual;
+  entry.iterations = partition.iterations;
+  entry.sign_changes = partition.sign_changes;
+  entry.components = partition.components;
+  entry.free_components = partition.free_components;
+  entry.status = partition.status;
+  run.report().partitions.push_back(entry);
+  run.report().undecided_nodes += partition.undecided;
+  if (partition.status == SolverStatus::not_converged)
+    run.warn("the solver of the " + entry.stage + " stopped before the signs settled (residual " +
+             std::to_string(partition.residual) + ")");
+}
+
+void describe(const PoleLabels& labels, Run& run) {
+  run.count("vote", labels.vote);
+  run.count("supernode_overruled", labels.reversed ? 1 : 0);
+  run.count("contradicted", static_cast<double>(labels.contradicted));
+  run.count("left_to_stage_two", static_cast<double>(labels.left_to_stage_two));
+}
+
+void describe(const FinalLabels& labels, Run& run) {
+  if (labels.supernodes_agree)
+    run.warn("the second eigenvector puts inside and outside on the same side; use --second-stage harmonic");
+}
+
+void describe(const CentringCounts& counts, Run& run) {
+  run.count("relabelled", static_cast<double>(counts.relabelled));
+}
+
+void describe(const ManifoldCounts& counts, Run& run) {
+  run.count("edges_repaired", static_cast<double>(counts.edges));
+  run.count("vertices_repaired", static_cast<double>(counts.vertices));
+  run.count("tetrahedra_relabelled", static_cast<double>(counts.relabelled));
+  if (counts.overruled > 0)
+    run.warn(std::to_string(counts.overruled) +
+             " tetrahedra named inside or outside were overruled by the manifold repair");
+}
+
+void describe(const HandleCounts& counts, Run& run) { run.count("closed", static_cast<double>(counts.closed)); }
+
+void describe(const RecoveryCounts& counts, Run& run) { run.count("samples", static_cast<double>(counts.samples)); }
+
+void describe(const SpikeCounts& counts, Run& run) { run.count("cut", static_cast<double>(counts.cut)); }
+
+void describe(const Contradictions& contradictions, Run& run) {
+  if (contradictions.all == 0) return;
+  run.report().contradicting_rays = contradictions.lines;
+  const double share = static_cast<double>(contradictions.lines) / static_cast<double>(contradictions.all);
+  constexpr double usual = 0.05;
+  if (share > usual)
+    run.warn(std::to_string(std::lround(100 * share)) +
+             " % of the lines of sight cross what was found to be inside: check the sensors' places, or ignore them");
+}
+
+void describe(const std::vector<DroppedComponent>& dropped, Run& run) {
+  auto& all = run.report().dropped_components;
+  all.insert(all.end(), dropped.begin(), dropped.end());
+}
+
+void describe(const UnsupportedTriangles& unsupported, Run& run) {
+  Report& report = run.report();
+  report.unsupported_area = unsupported.share_of_area;
+  run.count("unsupported", static_cast<double>(std::count(unsupported.marked.begin(), unsupported.marked.end(), 1)));
+  constexpr double usual = 0.1;
+  if (report.unsupported_area > usual && !report.options.trim)
+    run.warn(std::to_string(std::lround(100 * report.unsupported_area)) +
+             " % of the surface's area was invented: no samples bear it out" +
+             (report.one_sided ? " (the sensors all lie on one side)" : "") + "; --trim leaves it out");
+}
+
+void describe(const PointResults& results, Run& run) {
+  run.count("inliers", static_cast<double>(std::count(results.inlier.begin(), results.inlier.end(), 1)));
+}
+
+void describe(const MeshSummary& mesh, Run& run) {
+  run.report().mesh = mesh;
+  run.report().broken_guarantees = broken_guarantees(mesh, run.report().options);
+}
+
+} // namespace eigencrust

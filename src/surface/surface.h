@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// From labels to the mesh.
+#pragma once
+
+#include <eigencrust/stages.h>
+#include <eigencrust/validate.h>
+
+#include "evidence/evidence.h"
+
+namespace eigencrust {
+
+/// §3. The stages surface, support, components and trim.
+/// \throws Error{no_surface}
+Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence& evidence, const FinalLabels& labels,
+                     const Context& context);
+
+/// §3.6. The stages smoothing and attributes.
+TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene, const Context& context);
+
+/// The stage validate: what the mesh is, and whether it is what the options promise.
+void check(const TriangleMesh& mesh, const PointCloud& cloud, const Scene& scene, const ValidateOptions& checks,
+           const Context& context);
+
+} // namespace eigencrust

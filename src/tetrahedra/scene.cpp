@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tetrahedra/scene.h"
+
+#include <chrono>
+
+namespace eigencrust {
+namespace {
+
+double seconds_of(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void triangulate_and_measure(const PointCloud& cloud, Samples samples, const Context& context, Scene& scene) {
+  const auto& [options, run, threads] = context;
+  SampleMeasures& measures = scene.measures;
+  if (threads.size() == 1) {
+    run.stage("neighbourhoods", [&] { measure_neighbourhoods(samples, options, threads, measures); });
+    run.stage("noise", [&] { measure_noise(cloud, samples, options, threads, measures); });
+    scene.tetrahedralization = run.stage("delaunay", [&] { return tetrahedralize(std::move(samples), threads); });
+    return;
+  }
+  double neighbourhoods = 0, noise = 0;
+  scene.tetrahedralization = run.stage("delaunay", [&] {
+    Samples copy = samples;
+    return tetrahedralize(std::move(copy), threads, [&] {
+      const Threads others(threads.size() - 1);
+      neighbourhoods = seconds_of([&] { measure_neighbourhoods(samples, options, others, measures); });
+      noise = seconds_of([&] { measure_noise(cloud, samples, options, others, measures); });
+    });
+  });
+  run.add("neighbourhoods", neighbourhoods);
+  run.add("noise", noise);
+}
+
+} // namespace
+
+Scene make_scene(const PointCloud& cloud, const Context& context) {
+  const auto& [options, run, threads] = context;
+  Scene scene;
+  Samples samples = run.stage("samples", [&] { return prepare_samples(cloud.points, threads); });
+  triangulate_and_measure(cloud, std::move(samples), context, scene);
+  describe(scene.measures, run);
+  const Tetrahedralization& t = scene.tetrahedralization;
+  scene.stars = run.stage("stars", [&] { return vertex_stars(t, threads); });
+  scene.poles = run.stage("poles", [&] { return find_poles(t, scene.stars, scene.measures.reach, threads); });
+  return scene;
+}
+
+} // namespace eigencrust
