@@ -46,7 +46,7 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   run.end();
   result.mesh = std::move(mesh);
   result.tetrahedralization = std::move(scene.tetrahedralization);
-  result.labels = std::move(labels.labels);
+  result.labels = std::move(labels).labels();
   result.inlier = std::move(points.inlier);
   result.confidence = std::move(points.confidence);
   result.normals = std::move(points.normals);

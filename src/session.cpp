@@ -124,7 +124,7 @@ Result Session::label(std::span<const Vec3> outside_points, std::span<const Vec3
   check(result.mesh, cloud, scene, {.self_intersections = options.smooth > 0, .threads = options.threads}, context);
 
   run.end();
-  result.labels = std::move(labels.labels);
+  result.labels = std::move(labels).labels();
   result.inlier = std::move(points.inlier);
   result.confidence = std::move(points.confidence);
   result.normals = std::move(points.normals);

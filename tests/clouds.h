@@ -140,20 +140,42 @@ inline double volume(const Tetrahedralization& t, TetrahedronIndex i) {
   return dot(cross(t.positions[b] - o, t.positions[c] - o), t.positions[d] - o) / 6;
 }
 
+/// Labels made by hand: all outside at first.
+struct HandMade {
+  Labels labels;
+  IndexedArray<TetrahedronIndex, float> certainty;
+
+  HandMade(std::size_t n, float all) : labels(n, Label::outside), certainty(n, all) {}
+  void set(TetrahedronIndex i, Label label, float value) {
+    labels[i] = label;
+    certainty[i] = value;
+  }
+  [[nodiscard]] TetrahedronLabels done() const { return {labels, certainty}; }
+};
+/// Another side, as sure as before.
+inline void put(TetrahedronLabels& labels, TetrahedronIndex i, Label label) {
+  if (labels[i] != label) labels.turn(i);
+}
+/// Slow: for a few of a small cloud.
+inline void put(TetrahedronLabels& labels, TetrahedronIndex i, Label label, float certainty) {
+  HandMade made(0, 0);
+  made.labels = labels.labels();
+  made.certainty = labels.values();
+  made.set(i, label, certainty);
+  labels = made.done();
+}
+
 /// Tetrahedra at the cube outside, each other one inside with probability `share`; values to match.
-inline FinalLabels random_labels(const Tetrahedralization& t, double share, std::uint64_t seed) {
+inline TetrahedronLabels random_labels(const Tetrahedralization& t, double share, std::uint64_t seed) {
   Random random(seed);
-  FinalLabels result;
-  result.labels = Labels(t.tetrahedra.size(), Label::outside);
-  result.value = IndexedArray<TetrahedronIndex, float>(t.tetrahedra.size(), 1.0f);
+  HandMade result(t.tetrahedra.size(), 1);
   for (std::uint32_t i = 0; i < t.tetrahedra.size(); ++i) {
     const TetrahedronIndex index{i};
     const double inside = random.uniform(), size = random.uniform(0.01, 1);
     if (t.touches_cube(index)) continue;
-    result.labels[index] = inside < share ? Label::inside : Label::outside;
-    result.value[index] = static_cast<float>(inside < share ? -size : size);
+    result.set(index, inside < share ? Label::inside : Label::outside, static_cast<float>(size));
   }
-  return result;
+  return result.done();
 }
 
 /// The triangles as sorted lists of corner coordinates, turned so that the smallest corner is first:

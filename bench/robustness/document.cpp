@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include <eigencrust/version.h>
+#include <eigencrust/eigencrust.h>
 
 namespace eigencrust::bench {
 namespace {

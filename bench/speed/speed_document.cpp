@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <eigencrust/version.h>
+#include <eigencrust/eigencrust.h>
 
 namespace eigencrust::bench {
 namespace {

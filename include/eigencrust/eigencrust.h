@@ -10,9 +10,11 @@
 #include <eigencrust/options.h>
 #include <eigencrust/report.h>
 #include <eigencrust/types.h>
-#include <eigencrust/version.h>
 
 namespace eigencrust {
+
+/// MAJOR.MINOR.PATCH; typed once, in CMakeLists.txt.
+const char* version();
 
 struct Result {
   /// Vertices are input points bit for bit (unless smoothed), with all their attributes and

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How a run is watched and cancelled, and the threads it may use.
+/// How a run is watched and cancelled.
 #pragma once
 
-#include <cstddef>
-#include <memory>
 #include <string_view>
-#include <type_traits>
 
 #include <eigencrust/types.h>
 
@@ -35,32 +32,5 @@ Observer* default_observer();
 
 /// Throws Error{cancelled} naming the stage when the observer asks for it.
 void throw_if_cancelled(Observer& observer, std::string_view stage);
-
-/// A fixed team of worker threads. Not to be entered from one of its own blocks.
-class Threads {
- public:
-  /// \param count number of threads including the caller's; 0: one per core
-  explicit Threads(unsigned count = 0);
-  ~Threads();
-  Threads(const Threads&) = delete;
-  Threads& operator=(const Threads&) = delete;
-
-  [[nodiscard]] unsigned size() const;
-
-  /// Calls work(block) once for each block in [0, blocks), in any order, from all threads. If blocks
-  /// throw, the exception of the smallest block is rethrown after all have ended.
-  template <class Work>
-  void run(std::size_t blocks, Work&& work) const {
-    using Function = std::remove_reference_t<Work>;
-    run_erased(
-        blocks, [](void* f, std::size_t block) { (*static_cast<Function*>(f))(block); },
-        const_cast<void*>(static_cast<const void*>(&work)));
-  }
-
- private:
-  void run_erased(std::size_t blocks, void (*call)(void*, std::size_t), void* function) const;
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
 
 } // namespace eigencrust

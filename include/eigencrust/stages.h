@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Every stage of the method as a free function, in the paper's order: the table of contents.
+/// Every step of the paper as a free function, in its order: the table of contents. What the paper does not have
+/// is in src/, each chapter with a header of its own.
 /// § numbers are those of Kolluri, Shewchuk and O'Brien, Spectral Surface Reconstruction from Noisy
 /// Point Clouds (SGP 2004). src/pipeline.cpp shows how they fit together.
 #pragma once
@@ -10,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include <eigencrust/observer.h>
 #include <eigencrust/options.h>
+#include <eigencrust/threads.h>
 #include <eigencrust/types.h>
 
 namespace eigencrust {
@@ -35,22 +36,6 @@ double median_spacing(const Samples& samples, std::span<const Vec3> points, std:
 double resolve_grid_spacing(const GridSpacing& option, const Samples& samples, std::span<const Vec3> points,
                             std::span<const std::uint32_t> scan_index, const Threads& threads);
 
-/// How close the samples stand, and which of them may be outliers (not in the paper; docs/decisions/0013).
-struct Neighbourhoods {
-  std::vector<float> spacing; ///< distance to the third nearest other sample
-  double typical = 0;         ///< median of those
-  double nearest = 0;         ///< median distance to the nearest other sample: the spacing of the report
-  /// Distance to the 20th nearest sample where a sample is isolated: its spacing is 2.5 times the typical one
-  /// and its neighbourhood is not flat. 0 for all others.
-  std::vector<float> isolated;
-};
-Neighbourhoods sample_neighbourhoods(std::span<const Vec3> positions, const Threads& threads);
-
-/// Standard deviation of the noise at each sample, 0 where there is none to be told from curvature; smooth
-/// in space, length unit of the input (not in the paper). Isolated samples (see above; may be empty) set no scale.
-IndexedArray<SampleIndex, float> noise_scale(const Samples& samples, std::span<const float> isolated,
-                                             const Threads& threads);
-
 /// §3: Delaunay tetrahedra of the samples and the corners of a cube whose half side is 10 diagonals of
 /// their bounding box. Points are inserted one after the other, so one thread does it; `beside` (may be empty)
 /// is called meanwhile on another, if there is one.
@@ -70,11 +55,6 @@ Poles find_poles(const Tetrahedralization& tetrahedralization, const VertexStars
 Labels known_labels(const Tetrahedralization& tetrahedralization, std::span<const Vec3> outside_points,
                     std::span<const Vec3> inside_points, std::optional<Axis> facade, const Threads& threads);
 
-/// A pole's ball holds no sample, so what is deep within it (nearer to its centre than half the radius) is on the
-/// pole's side of the surface: poles without a label take that of the user's points there, unless they disagree.
-void name_poles(const Tetrahedralization& tetrahedralization, const Poles& poles, std::span<const Vec3> outside_points,
-                std::span<const Vec3> inside_points, const Threads& threads, Labels& known);
-
 /// What the scanner looked along when it saw a sample.
 struct SightLine {
   SampleIndex sample;
@@ -86,9 +66,6 @@ struct SightLine {
 /// \param left_out samples where it is > 0 have none (may be empty)
 std::vector<SightLine> sight_lines(const PointCloud& cloud, const Tetrahedralization& tetrahedralization,
                                    std::span<const float> depth, std::span<const float> left_out);
-
-/// What the lines say of the side they come from; none when they come from around, or there are none.
-std::optional<OneSided> one_sided_scan(const Tetrahedralization& tetrahedralization, std::span<const SightLine> lines);
 
 /// The tetrahedra that each line crosses, in their order along it (compressed rows).
 struct SightCrossings {
@@ -111,7 +88,8 @@ struct SightRule {
   std::uint32_t crossing_count = 2; ///< lines
   std::uint32_t behind_count = 0;   ///< samples; 0: none makes it inside
   Weights weights = Weights::evidence;
-  std::span<const float> isolated = {}; ///< of each sample, see Neighbourhoods; tetrahedra at those are not made inside
+  std::span<const float> isolated =
+      {}; ///< of each sample, see samples/neighbourhoods.h; tetrahedra at those are not made inside
 };
 /// §3.1: `known`, and outside for the tetrahedra without a label that enough lines cross, more than there are
 /// samples right in front of them. Lines that cross what more samples lie in front of than lines cross are not
@@ -126,9 +104,6 @@ struct SightLabels {
 SightLabels line_of_sight(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
                           std::span<const SightLine> lines, const SightCrossings& crossings, const SightRule& rule,
                           const Labels& known, const Threads& threads);
-/// How many lines cross a tetrahedron that `labels` call inside.
-std::uint64_t contradicting_lines(const SightCrossings& crossings, const Labels& labels, const Threads& threads);
-
 /// §3.3: tetrahedra whose longest edge is < 4 × the mean grid spacing at their samples, none with a cube
 /// corner. \param grid_spacing a length per sample; empty: none is questionable
 std::vector<std::uint8_t> questionable_tetrahedra(const Tetrahedralization& tetrahedralization,
@@ -185,23 +160,9 @@ Partition partition_tetrahedra(SignedGraph graph, SecondStage method, const Solv
 
 /// Every tetrahedron labelled, with the stage-two component behind each label (+1 and -1 times the
 /// supernodes' magnitude for those labelled before).
-struct FinalLabels {
-  Labels labels;
-  IndexedArray<TetrahedronIndex, float> value; ///< > 0 outside
-  bool supernodes_agree = false;               ///< both supernodes on one side: the vector is useless
-};
-FinalLabels label_tetrahedra(const TetrahedronGraph& graph, const Partition& partition, Labels labels);
-
-/// Where noise exceeds the spacing (`reach` > 0, see find_poles): moves the boundary between inside and outside to
-/// the middle of the samples, half of them on either side, and smooths it at the scale of a few spacings. The harmonic
-/// values leave it on the inner side, and nowhere in thin parts. Only tetrahedra that the first stage left open
-/// (`first`) change (not in the paper).
-struct CentringCounts {
-  std::uint64_t relabelled = 0; ///< tetrahedra
-};
-CentringCounts centre_in_noise(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
-                               std::span<const float> reach, std::span<const float> isolated, const Labels& first,
-                               const Threads& threads, FinalLabels& labels);
+TetrahedronLabels label_tetrahedra(const TetrahedronGraph& graph, const Partition& partition, Labels labels);
+/// Both supernodes on one side: the vector is useless.
+bool supernodes_agree(const Partition& partition);
 
 /// §3.5: relabels tetrahedra until the surface is a manifold. With the paper's rule labels only go from
 /// inside to outside; with `cheapest` a tetrahedron may once go the other way, so both end. What is `known` gives way
@@ -212,39 +173,8 @@ struct ManifoldCounts {
   std::uint64_t overruled = 0;           ///< tetrahedra that are not what they are known to be
 };
 ManifoldCounts make_manifold(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
-                             const Labels& known, ManifoldRule rule, FinalLabels& labels, const Threads& threads,
+                             const Labels& known, ManifoldRule rule, TetrahedronLabels& labels, const Threads& threads,
                              const Checkpoint& checkpoint = {});
-
-/// Closes handles that no pole vouches for: along short loops of the surface the tetrahedra that the first stage
-/// left open (`first`) change sides, if that takes a handle away and leaves a manifold; the cheaper of filling and
-/// cutting, by Σ |value|. Expects a manifold (not in the paper).
-struct HandleCounts {
-  std::uint64_t closed = 0;
-};
-HandleCounts close_handles(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
-                           const Labels& first, const Labels& known, std::span<const float> grid_spacing,
-                           ManifoldRule rule, FinalLabels& labels, const Threads& threads,
-                           const Checkpoint& checkpoint = {});
-
-/// Takes samples into the surface that it passes by closely: the tetrahedron between such a sample and a
-/// surface triangle changes sides, which neither opens nor joins anything. Only when such samples are at
-/// most `max_share` of those on the surface; more are noise. Isolated samples (may be empty) stay out where they
-/// are more (not in the paper).
-struct RecoveryCounts {
-  std::uint64_t samples = 0; ///< taken in
-};
-RecoveryCounts recover_samples(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
-                               const Labels& known, std::span<const float> isolated, double max_share, Labels& labels);
-
-/// Cuts off spikes (and fills pits) that end in an isolated sample: where no triangle at it has a support of 0.1 (see
-/// measure_support) and the first stage (`first`) settled no tetrahedron on one side of its star, that side changes,
-/// if the surface stays a manifold with as many handles and pieces (not in the paper).
-struct SpikeCounts {
-  std::uint64_t cut = 0;
-};
-SpikeCounts cut_spikes(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
-                       const Labels& first, const Labels& known, const Neighbourhoods& neighbourhoods,
-                       std::span<const float> grid_spacing, ManifoldRule rule, FinalLabels& labels);
 
 /// §3: the faces between inside and outside, counter-clockwise seen from outside; sample_of[v] is the
 /// sample behind vertex v, coordinates are still relative to the origin.
@@ -255,60 +185,6 @@ struct Surface {
   std::vector<float> support;           ///< of each triangle, see measure_support
 };
 Surface extract_surface(const Tetrahedralization& tetrahedralization, const Labels& labels, const Threads& threads);
-
-/// How well the samples bear out each triangle, in [0, 1]: min(1, 2.5 h / e) (1 + min(1, c)) / 2, where e is its
-/// longest edge, h the mean over its vertices of the local spacing (of isolated ones: the typical one) or of the grid
-/// spacing ℓ if that is larger, and c the contrast |x_out - x_in| of the second stage's values across it (not in the
-/// paper).
-void measure_support(const Tetrahedralization& tetrahedralization, const FinalLabels& labels,
-                     const Neighbourhoods& neighbourhoods, std::span<const float> grid_spacing, Surface& surface,
-                     const Threads& threads);
-
-/// Removes pieces of the surface by `keep`; see docs/parameters.md for `supported`. Expects surface.support.
-/// \param grid_spacing ℓ of each sample; may be empty
-std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComponents& keep,
-                                                const Tetrahedralization& tetrahedralization,
-                                                std::span<const float> grid_spacing, const Threads& threads);
-
-/// The triangles that the samples do not bear out (1): their support is below 1/4, or their longest edge exceeds 10
-/// times the smallest local spacing of their vertices (of isolated ones: the typical one), or no line of sight of
-/// their vertices meets their front within 85° of the normal, in a one-sided scan: none of some vertex (not in the
-/// paper; docs/decisions/0020). Expects surface.support. \param lines as sight_lines() gives them; may be empty
-std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& tetrahedralization,
-                                                const Neighbourhoods& neighbourhoods, std::span<const SightLine> lines,
-                                                bool one_sided, const Surface& surface, const Threads& threads);
-/// The share of the surface's area that is marked.
-double share_of_area(const Surface& surface, std::span<const std::uint8_t> marked);
-/// What unsupported_triangles() marked, and its share.
-struct UnsupportedTriangles {
-  std::vector<std::uint8_t> marked;
-  double share_of_area = 0;
-};
-/// Takes away the triangles marked, and then, at vertices with several fans, all but the largest fan: an oriented
-/// manifold surface stays one, with boundary.
-void trim(std::vector<std::uint8_t> unsupported, Surface& surface);
-
-/// Which samples belong to the surface, from the labels (not in the paper; docs/decisions/0014).
-struct Classification {
-  IndexedArray<SampleIndex, std::uint8_t> inlier; ///< 1 exactly where the confidence is at least 0.5
-  /// 1/(1 + (d/τ)²), d being how far the sample is from the surface that its neighbours make and τ the
-  /// tolerance: 1.25 local spacings or 3 deviations of the noise.
-  IndexedArray<SampleIndex, float> confidence;
-  /// Vertices of the triangle of `surface` that is nearest; three times the same one where that is a vertex.
-  /// Of samples with a plausible vertex of their own it is that.
-  IndexedArray<SampleIndex, std::array<std::uint32_t, 3>> place;
-};
-/// \param surface as kept: pieces that were dropped make no inliers
-/// \param grid_spacing a length per sample, 1.2 deviations of the noise; empty: no noise
-Classification classify_samples(const Tetrahedralization& tetrahedralization, const Surface& surface,
-                                std::span<const float> grid_spacing, const Threads& threads);
-
-/// Unit normals of the inliers, outward by the labels: angle-weighted triangle normals, averaged over as
-/// many neighbours as the noise asks for; between the vertices of its place for a sample beside the surface.
-/// NaN for the others.
-IndexedArray<SampleIndex, Vec3> orient_samples(const Tetrahedralization& tetrahedralization, const Surface& surface,
-                                               const Classification& samples, std::span<const float> grid_spacing,
-                                               const Threads& threads);
 
 /// §3.6. \throws Error{usage} never; boundary vertices stay
 void smooth(TriangleMesh& mesh, Smoothing method, std::uint32_t steps, const Threads& threads);

@@ -207,6 +207,49 @@ struct Poles {
 enum class Label : std::uint8_t { unlabelled = 0, inside = 1, outside = 2 };
 using Labels = IndexedArray<TetrahedronIndex, Label>;
 
+/// A side and a value for every tetrahedron; the value's sign is the side (> 0 outside), its size how sure that is.
+class TetrahedronLabels {
+ public:
+  /// Tetrahedra that were turned, in order.
+  using Journal = std::vector<TetrahedronIndex>;
+
+  TetrahedronLabels() = default;
+  /// \param labels inside or outside, none unlabelled
+  /// \param value  its size counts; the sign is that of the label
+  TetrahedronLabels(Labels labels, IndexedArray<TetrahedronIndex, float> value)
+      : labels_(std::move(labels)), value_(std::move(value)) {
+    for (std::uint32_t i = 0; i < labels_.size(); ++i) {
+      float& v = value_.raw()[i];
+      v = std::copysign(v, labels_.raw()[i] == Label::outside ? 1.0f : -1.0f);
+    }
+  }
+
+  [[nodiscard]] Label operator[](TetrahedronIndex i) const { return labels_[i]; }
+  [[nodiscard]] float value(TetrahedronIndex i) const { return value_[i]; }
+  [[nodiscard]] std::uint32_t size() const { return labels_.size(); }
+  [[nodiscard]] const Labels& labels() const& { return labels_; }
+  [[nodiscard]] Labels labels() && { return std::move(labels_); }
+  [[nodiscard]] const IndexedArray<TetrahedronIndex, float>& values() const { return value_; }
+
+  /// To the other side, as sure as before.
+  void turn(TetrahedronIndex i) {
+    labels_[i] = labels_[i] == Label::outside ? Label::inside : Label::outside;
+    value_[i] = -value_[i];
+  }
+  void turn(TetrahedronIndex i, Journal& journal) {
+    turn(i);
+    journal.push_back(i);
+  }
+  /// Takes a journal back, the last one first.
+  void undo(const Journal& journal) {
+    for (std::size_t i = journal.size(); i-- > 0;) turn(journal[i]);
+  }
+
+ private:
+  Labels labels_;
+  IndexedArray<TetrahedronIndex, float> value_;
+};
+
 /// A symmetric weighted graph whose weights say "same side" (> 0) or "opposite sides" (< 0).
 ///
 /// Ordinary nodes are stored as compressed rows without self-loops, columns increasing. Supernodes

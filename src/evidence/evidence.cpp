@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "evidence/evidence.h"
+#include "evidence/contradictions.h"
+#include "evidence/named_points.h"
 
 #include <algorithm>
 

@@ -5,6 +5,7 @@
 #include <eigencrust/error.h>
 #include <eigencrust/stages.h>
 
+#include "evidence/named_points.h"
 #include "geometry/predicates.h"
 #include "parallel/threads.h"
 

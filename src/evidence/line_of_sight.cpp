@@ -8,6 +8,7 @@
 
 #include <eigencrust/stages.h>
 
+#include "evidence/contradictions.h"
 #include "parallel/threads.h"
 #include "samples/rows.h"
 #include "tetrahedra/segment_walk.h"

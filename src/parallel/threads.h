@@ -5,7 +5,7 @@
 /// machine.
 #pragma once
 
-#include <eigencrust/observer.h>
+#include <eigencrust/threads.h>
 
 #include <algorithm>
 #include <cstddef>

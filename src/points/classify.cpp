@@ -12,6 +12,7 @@
 #include "geometry/nearest.h"
 #include "geometry/nearest_on_triangle.h"
 #include "parallel/threads.h"
+#include "points/classify.h"
 #include "surface/fans.h"
 
 namespace eigencrust {

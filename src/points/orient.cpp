@@ -8,6 +8,7 @@
 
 #include "geometry/nearest_on_triangle.h"
 #include "parallel/threads.h"
+#include "points/orient.h"
 #include "surface/fans.h"
 
 namespace eigencrust {

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "points/orient.h"
 #include "samples/rows.h"
 
 namespace eigencrust {

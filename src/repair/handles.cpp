@@ -10,6 +10,7 @@
 #include <eigencrust/stages.h>
 
 #include "repair/handle_loops.h"
+#include "repair/handles.h"
 #include "repair/star_repair.h"
 #include "repair/surface_part.h"
 
@@ -32,7 +33,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 class HandleClosing {
  public:
   HandleClosing(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& first,
-                const Labels& known, std::span<const float> grid_spacing, ManifoldRule rule, FinalLabels& labels,
+                const Labels& known, std::span<const float> grid_spacing, ManifoldRule rule, TetrahedronLabels& labels,
                 const Threads& threads)
       : t_(t),
         stars_(stars),
@@ -58,9 +59,10 @@ class HandleClosing {
  private:
   using Samples = std::vector<std::uint32_t>;
   using Region = std::vector<TetrahedronIndex>;
+  using Journal = TetrahedronLabels::Journal;
 
   std::uint64_t close_short_loops(const Checkpoint& checkpoint) {
-    const Surface surface = extract_surface(t_, labels_.labels, threads_);
+    const Surface surface = extract_surface(t_, labels_.labels(), threads_);
     std::fill(changed_.begin(), changed_.end(), 0);
     std::uint64_t closed = 0;
     Samples loop;
@@ -101,9 +103,9 @@ class HandleClosing {
       if (size > 3) ring = samples_of(region);
       if (region.size() > region_per_vertex * loop.size()) break;
       double least = infinity;
-      std::vector<Flip> best;
+      Journal best;
       for (const Label from : {Label::outside, Label::inside}) {
-        std::vector<Flip> flips;
+        Journal flips;
         const double price = flip_and_repair(region, from, flips);
         repair_.undo(flips);
         if (price >= least) continue;
@@ -119,52 +121,41 @@ class HandleClosing {
 
   /// Changes the sides of the open tetrahedra of the region that are `from`, and repairs what that spoils.
   /// \return Σ |value| of what changed; infinite unless it took a handle away
-  double flip_and_repair(const Region& region, Label from, std::vector<Flip>& flips) {
-    const Label to = from == Label::outside ? Label::inside : Label::outside;
-    std::vector<float> values;
+  double flip_and_repair(const Region& region, Label from, Journal& flips) {
     for (const TetrahedronIndex i : region) {
-      if (labels_.labels[i] != from || first_[i] != Label::unlabelled || t_.touches_cube(i)) continue;
-      if (std::fabs(labels_.value[i]) > sure) continue;
-      flips.push_back({i, from});
-      values.push_back(labels_.value[i]);
-      labels_.labels[i] = to;
-      labels_.value[i] = held; // the repair shall not take it back
+      if (labels_[i] != from || first_[i] != Label::unlabelled || t_.touches_cube(i)) continue;
+      if (std::fabs(labels_.value(i)) <= sure) labels_.turn(i, flips);
     }
     if (flips.empty()) return infinity;
-    std::vector<Flip> repairs;
+    Journal repairs;
+    repair_.hold(flips); // the repair shall not take them back
     repair_.run(samples_of(flips), &repairs);
-    for (std::size_t k = 0; k < values.size(); ++k) labels_.value[flips[k].tetrahedron] = values[k];
+    repair_.release(flips);
     flips.insert(flips.end(), repairs.begin(), repairs.end());
     return has_closed_one(flips) ? price_of(flips) : infinity;
   }
 
-  bool has_closed_one(const std::vector<Flip>& flips) {
+  bool has_closed_one(const Journal& flips) {
     const Samples around = samples_of(flips);
-    const SurfacePart after = surface_part(t_, stars_, labels_.labels, around);
-    Labels& labels = labels_.labels;
-    std::vector<Label> now;
-    for (const Flip& f : flips) now.push_back(labels[f.tetrahedron]);
-    for (std::size_t k = flips.size(); k-- > 0;) labels[flips[k].tetrahedron] = flips[k].before;
-    const SurfacePart before = surface_part(t_, stars_, labels, around);
-    for (std::size_t k = 0; k < flips.size(); ++k) labels[flips[k].tetrahedron] = now[k];
+    const SurfacePart after = surface_part(t_, stars_, labels_.labels(), around);
+    labels_.undo(flips);
+    const SurfacePart before = surface_part(t_, stars_, labels_.labels(), around);
+    for (const TetrahedronIndex i : flips) labels_.turn(i);
     const std::int64_t specks = after.closed_pieces - before.closed_pieces;
     return specks <= tolerated_specks && specks - (after.euler - before.euler) / 2 < 0;
   }
 
-  double price_of(const std::vector<Flip>& flips) const {
+  double price_of(const Journal& flips) const {
     double price = 0;
-    for (const Flip& f : flips) price += std::fabs(static_cast<double>(labels_.value[f.tetrahedron]));
+    for (const TetrahedronIndex i : flips) price += std::fabs(static_cast<double>(labels_.value(i)));
     return price;
   }
 
   /// Makes the flips (undone by now) for good.
-  void keep(const std::vector<Flip>& flips) {
-    for (const Flip& f : flips) {
-      Label& label = labels_.labels[f.tetrahedron];
-      label = label == Label::outside ? Label::inside : Label::outside; // one may change twice
-      float& value = labels_.value[f.tetrahedron];
-      value = label == Label::outside ? std::fabs(value) : -std::fabs(value);
-      for (const SampleIndex s : t_.tetrahedra[f.tetrahedron]) changed_[s.value] = 1;
+  void keep(const Journal& flips) {
+    for (const TetrahedronIndex i : flips) {
+      labels_.turn(i);
+      for (const SampleIndex s : t_.tetrahedra[i]) changed_[s.value] = 1;
     }
   }
 
@@ -220,11 +211,6 @@ class HandleClosing {
     for (const TetrahedronIndex i : region) add_samples(i, samples);
     return sorted(samples);
   }
-  Samples samples_of(const std::vector<Flip>& flips) const {
-    Samples samples;
-    for (const Flip& f : flips) add_samples(f.tetrahedron, samples);
-    return sorted(samples);
-  }
   void add_samples(TetrahedronIndex i, Samples& samples) const {
     for (const SampleIndex s : t_.tetrahedra[i])
       if (!t_.is_corner(s)) samples.push_back(s.value);
@@ -235,13 +221,11 @@ class HandleClosing {
     return std::move(samples);
   }
 
-  static constexpr float held = 100; ///< values are at most 1
-
   const Tetrahedralization& t_;
   const VertexStars& stars_;
   const Labels& first_;
   std::span<const float> grid_spacing_;
-  FinalLabels& labels_;
+  TetrahedronLabels& labels_;
   const Threads& threads_;
   StarRepair repair_;
   std::set<Samples> failed_;          ///< loops that nothing closed
@@ -253,7 +237,7 @@ class HandleClosing {
 
 HandleCounts close_handles(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles,
                            const Labels& first, const Labels& known, std::span<const float> grid_spacing,
-                           ManifoldRule rule, FinalLabels& labels, const Threads& threads,
+                           ManifoldRule rule, TetrahedronLabels& labels, const Threads& threads,
                            const Checkpoint& checkpoint) {
   if (grid_spacing.empty()) return {}; // without noise every handle is meant
   return {HandleClosing(t, stars, poles, first, known, grid_spacing, rule, labels, threads).run(checkpoint)};

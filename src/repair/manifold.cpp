@@ -65,13 +65,13 @@ class LinkCheck {
 } // namespace
 
 ManifoldCounts make_manifold(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles,
-                             const Labels& known, ManifoldRule rule, FinalLabels& labels, const Threads& threads,
+                             const Labels& known, ManifoldRule rule, TetrahedronLabels& labels, const Threads& threads,
                              const Checkpoint& checkpoint) {
   // Most stars are sound; looking is for all threads, repairing for one.
   constexpr std::size_t block = 4096;
   std::vector<std::vector<std::uint32_t>> found((t.sample_count + block - 1) / block);
   for_blocks(threads, t.sample_count, block, [&](std::size_t begin, std::size_t end, std::size_t b) {
-    LinkCheck link(t, stars, labels.labels);
+    LinkCheck link(t, stars, labels.labels());
     for (std::size_t s = begin; s < end; ++s)
       if (!link.is_disc(SampleIndex{static_cast<std::uint32_t>(s)})) found[b].push_back(static_cast<std::uint32_t>(s));
   });
@@ -79,7 +79,7 @@ ManifoldCounts make_manifold(const Tetrahedralization& t, const VertexStars& sta
   for (const auto& part : found) unsound.insert(unsound.end(), part.begin(), part.end());
   ManifoldCounts counts = StarRepair(t, stars, poles, known, rule, labels).run(std::move(unsound), nullptr, checkpoint);
   for (std::size_t i = 0; i < known.size(); ++i)
-    counts.overruled += known.raw()[i] != Label::unlabelled && known.raw()[i] != labels.labels.raw()[i];
+    counts.overruled += known.raw()[i] != Label::unlabelled && known.raw()[i] != labels.labels().raw()[i];
   return counts;
 }
 

@@ -6,6 +6,8 @@
 
 #include <eigencrust/stages.h>
 
+#include "repair/recover.h"
+
 namespace eigencrust {
 namespace {
 
@@ -18,7 +20,7 @@ constexpr double share_beside_outliers = 0.4;
 
 class Recovery {
  public:
-  Recovery(const Tetrahedralization& t, const VertexStars& stars, const Labels& known, Labels& labels)
+  Recovery(const Tetrahedralization& t, const VertexStars& stars, const Labels& known, TetrahedronLabels& labels)
       : t_(t), stars_(stars), known_(known), labels_(labels) {}
 
   bool is_passed_by(SampleIndex s) const {
@@ -50,9 +52,7 @@ class Recovery {
     return best;
   }
 
-  void take_in(SampleIndex s, TetrahedronIndex tetrahedron) {
-    labels_[tetrahedron] = labels_[stars_[s].front()] == Label::outside ? Label::inside : Label::outside;
-  }
+  void take_in(TetrahedronIndex tetrahedron) { labels_.turn(tetrahedron); }
 
  private:
   double nearest_neighbour(SampleIndex s) const {
@@ -80,13 +80,13 @@ class Recovery {
   const Tetrahedralization& t_;
   const VertexStars& stars_;
   const Labels& known_;
-  Labels& labels_;
+  TetrahedronLabels& labels_;
 };
 
 } // namespace
 
 RecoveryCounts recover_samples(const Tetrahedralization& t, const VertexStars& stars, const Labels& known,
-                               std::span<const float> isolated, double max_share, Labels& labels) {
+                               std::span<const float> isolated, double max_share, TetrahedronLabels& labels) {
   if (!(max_share > 0)) return {};
   Recovery recovery(t, stars, known, labels);
   std::vector<SampleIndex> passed;
@@ -108,7 +108,7 @@ RecoveryCounts recover_samples(const Tetrahedralization& t, const VertexStars& s
     for (const SampleIndex s : passed) {
       const TetrahedronIndex best = recovery.best_tetrahedron(s);
       if (best.valid())
-        recovery.take_in(s, best);
+        recovery.take_in(best);
       else
         left.push_back(s);
     }

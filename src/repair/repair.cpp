@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "repair/repair.h"
+#include "repair/handles.h"
+#include "repair/recover.h"
+#include "repair/spikes.h"
 
 namespace eigencrust {
 
-FinalLabels repair(const Scene& scene, const Evidence& evidence, const PoleLabels& first, FinalLabels labels,
-                   const Context& context) {
+TetrahedronLabels repair(const Scene& scene, const Evidence& evidence, const PoleLabels& first,
+                         TetrahedronLabels labels, const Context& context) {
   const auto& [options, run, threads] = context;
   const auto& [t, stars, measures, poles] = scene;
   const Labels& named = evidence.named;
@@ -18,13 +21,13 @@ FinalLabels repair(const Scene& scene, const Evidence& evidence, const PoleLabel
                            run.checkpoint());
     });
   run.stage("recover", [&] {
-    return recover_samples(t, stars, evidence.labels, measures.isolated, options.recover_share, labels.labels);
+    return recover_samples(t, stars, evidence.labels, measures.isolated, options.recover_share, labels);
   });
   if (options.manifold && !measures.isolated.empty())
     run.stage("spikes", [&] {
       return cut_spikes(t, stars, poles, first.labels, named, measures.around, measures.grid, rule, labels);
     });
-  describe(contradictions(evidence, labels.labels, threads), run);
+  describe(contradictions(evidence, labels.labels(), threads), run);
   return labels;
 }
 

@@ -9,7 +9,7 @@ namespace eigencrust {
 
 /// The stages manifold, handles, recover and spikes, as the options say.
 /// \param poles what the first stage settled
-FinalLabels repair(const Scene& scene, const Evidence& evidence, const PoleLabels& poles, FinalLabels labels,
-                   const Context& context);
+TetrahedronLabels repair(const Scene& scene, const Evidence& evidence, const PoleLabels& poles,
+                         TetrahedronLabels labels, const Context& context);
 
 } // namespace eigencrust

@@ -7,6 +7,7 @@
 
 #include <eigencrust/stages.h>
 
+#include "repair/spikes.h"
 #include "repair/star_repair.h"
 #include "repair/surface_part.h"
 #include "surface/triangle_support.h"
@@ -30,7 +31,7 @@ class SpikeCutting {
  public:
   SpikeCutting(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& first,
                const Labels& known, const Neighbourhoods& neighbourhoods, std::span<const float> grid_spacing,
-               ManifoldRule rule, FinalLabels& labels)
+               ManifoldRule rule, TetrahedronLabels& labels)
       : t_(t),
         stars_(stars),
         first_(first),
@@ -41,22 +42,24 @@ class SpikeCutting {
   /// Is that a tip? It leaves the surface if the surface stays what it is otherwise.
   bool cut(const Group& tip) {
     if (!is_tip(tip)) return false;
-    std::vector<Flip> cheaper = side_of_stars(tip, Label::inside), other = side_of_stars(tip, Label::outside);
+    Journal cheaper = side_of_stars(tip, Label::inside), other = side_of_stars(tip, Label::outside);
     if (price_of(other) < price_of(cheaper)) std::swap(cheaper, other);
     return flip(cheaper) || flip(other);
   }
 
  private:
+  using Journal = TetrahedronLabels::Journal;
+
   /// On the surface, with no triangle to other samples that the samples bear out.
   bool is_tip(const Group& group) const {
     bool on_surface = false;
     for (const SampleIndex s : group)
       for (const TetrahedronIndex i : stars_[s]) {
-        if (labels_.labels[i] != Label::inside) continue;
+        if (labels_[i] != Label::inside) continue;
         const auto& v = t_.tetrahedra[i];
         for (std::size_t k = 0; k < 4; ++k) {
           const TetrahedronIndex n = t_.neighbours[i][k];
-          if (v[k] == s || !n.valid() || labels_.labels[n] == Label::inside) continue;
+          if (v[k] == s || !n.valid() || labels_[n] == Label::inside) continue;
           const std::array<SampleIndex, 3> face{v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]};
           if (std::all_of(face.begin(), face.end(), [&](SampleIndex f) { return holds(group, f); })) continue;
           if (support_(face, i, n) >= most_support) return false;
@@ -68,38 +71,37 @@ class SpikeCutting {
 
   /// The tetrahedra of one side around the samples; none where the first stage settled one of them. What it says of a
   /// lonely group it has from that group alone.
-  std::vector<Flip> side_of_stars(const Group& group, Label side) const {
+  Journal side_of_stars(const Group& group, Label side) const {
     std::vector<TetrahedronIndex> stars;
     for (const SampleIndex s : group) stars.insert(stars.end(), stars_[s].begin(), stars_[s].end());
     std::sort(stars.begin(), stars.end());
     stars.erase(std::unique(stars.begin(), stars.end()), stars.end());
-    std::vector<Flip> flips;
+    Journal flips;
     for (const TetrahedronIndex i : stars) {
-      if (labels_.labels[i] != side) continue;
+      if (labels_[i] != side) continue;
       if ((group.size() == 1 && first_[i] != Label::unlabelled) || t_.touches_cube(i)) return {};
-      flips.push_back({i, side});
+      flips.push_back(i);
     }
     return flips;
   }
 
-  double price_of(const std::vector<Flip>& flips) const {
+  double price_of(const Journal& flips) const {
     double price = 0;
-    for (const Flip& f : flips) price += std::fabs(static_cast<double>(labels_.value[f.tetrahedron]));
+    for (const TetrahedronIndex i : flips) price += std::fabs(static_cast<double>(labels_.value(i)));
     return price;
   }
 
   /// How much the surface's area would change.
-  double area_change(const std::vector<Flip>& flips) const {
+  double area_change(const Journal& flips) const {
     double change = 0;
-    for (const Flip& f : flips) {
-      const auto& v = t_.tetrahedra[f.tetrahedron];
+    for (const TetrahedronIndex i : flips) {
+      const auto& v = t_.tetrahedra[i];
       for (std::size_t k = 0; k < 4; ++k) {
-        const TetrahedronIndex n = t_.neighbours[f.tetrahedron][k];
-        const auto same = [&](const Flip& other) { return other.tetrahedron == n; };
-        if (!n.valid() || std::any_of(flips.begin(), flips.end(), same)) continue;
+        const TetrahedronIndex n = t_.neighbours[i][k];
+        if (!n.valid() || std::find(flips.begin(), flips.end(), n) != flips.end()) continue;
         const Vec3& a = t_.positions[v[(k + 1) % 4]];
         const double area = norm(cross(t_.positions[v[(k + 2) % 4]] - a, t_.positions[v[(k + 3) % 4]] - a)) / 2;
-        change += labels_.labels[n] == f.before ? area : -area;
+        change += labels_[n] == labels_[i] ? area : -area;
       }
     }
     return change;
@@ -107,38 +109,32 @@ class SpikeCutting {
 
   /// Changes sides where that makes the surface smaller: filling up beside a spike can reach out to the next outlier.
   /// Takes it back if the surface is no manifold then, or has other handles or more pieces.
-  bool flip(const std::vector<Flip>& flips) {
+  bool flip(const Journal& flips) {
     if (flips.empty() || !(area_change(flips) < 0)) return false;
     std::vector<std::uint32_t> around;
-    for (const Flip& f : flips)
-      for (const SampleIndex s : t_.tetrahedra[f.tetrahedron])
+    for (const TetrahedronIndex i : flips)
+      for (const SampleIndex s : t_.tetrahedra[i])
         if (!t_.is_corner(s)) around.push_back(s.value);
     std::sort(around.begin(), around.end());
     around.erase(std::unique(around.begin(), around.end()), around.end());
 
-    const SurfacePart before = surface_part(t_, stars_, labels_.labels, around);
-    for (const Flip& f : flips) turn(f.tetrahedron);
-    const SurfacePart after = surface_part(t_, stars_, labels_.labels, around);
-    std::vector<Flip> repairs;
+    const SurfacePart before = surface_part(t_, stars_, labels_.labels(), around);
+    for (const TetrahedronIndex i : flips) labels_.turn(i);
+    const SurfacePart after = surface_part(t_, stars_, labels_.labels(), around);
+    Journal repairs;
     if (after.euler == before.euler && after.closed_pieces == before.closed_pieces) {
       repair_.run(around, &repairs);
       if (repairs.empty()) return true;
       repair_.undo(repairs);
     }
-    for (const Flip& f : flips) turn(f.tetrahedron);
+    labels_.undo(flips);
     return false;
-  }
-
-  void turn(TetrahedronIndex i) {
-    Label& label = labels_.labels[i];
-    label = label == Label::outside ? Label::inside : Label::outside;
-    labels_.value[i] = -labels_.value[i];
   }
 
   const Tetrahedralization& t_;
   const VertexStars& stars_;
   const Labels& first_;
-  FinalLabels& labels_;
+  TetrahedronLabels& labels_;
   TriangleSupport support_;
   StarRepair repair_;
 };
@@ -197,8 +193,8 @@ std::vector<Group> possible_tips(const Tetrahedralization& t, const VertexStars&
 
 SpikeCounts cut_spikes(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& first,
                        const Labels& known, const Neighbourhoods& neighbourhoods, std::span<const float> grid_spacing,
-                       ManifoldRule rule, FinalLabels& labels) {
-  std::vector<Group> left = possible_tips(t, stars, neighbourhoods, labels.labels);
+                       ManifoldRule rule, TetrahedronLabels& labels) {
+  std::vector<Group> left = possible_tips(t, stars, neighbourhoods, labels.labels());
   if (left.empty()) return {};
   SpikeCutting cutting(t, stars, poles, first, known, neighbourhoods, grid_spacing, rule, labels);
   // A spike on a spike stands free only after the outer one is gone.

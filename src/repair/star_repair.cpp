@@ -18,7 +18,7 @@ namespace eigencrust {
 class StarRepair::Impl {
  public:
   Impl(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& known,
-       ManifoldRule rule, FinalLabels& labels)
+       ManifoldRule rule, TetrahedronLabels& labels)
       : t_(t),
         stars_(stars),
         poles_(poles),
@@ -30,7 +30,8 @@ class StarRepair::Impl {
     if (rule_ == ManifoldRule::cheapest) filled_.assign(t.tetrahedra.size(), 0);
   }
 
-  ManifoldCounts run(std::vector<std::uint32_t> round, std::vector<Flip>* journal, const Checkpoint& checkpoint) {
+  ManifoldCounts run(std::vector<std::uint32_t> round, TetrahedronLabels::Journal* journal,
+                     const Checkpoint& checkpoint) {
     counts_ = {};
     journal_ = journal;
     for (const std::uint32_t s : round) waiting_[s] = 1;
@@ -51,19 +52,25 @@ class StarRepair::Impl {
     return counts_;
   }
 
-  void undo(std::span<const Flip> journal) {
+  void undo(const TetrahedronLabels::Journal& journal) {
     for (std::size_t i = journal.size(); i-- > 0;) {
-      const auto& [tetrahedron, before] = journal[i];
-      if (before == Label::outside && !filled_.empty()) filled_[tetrahedron.value] = 0;
-      labels_.labels[tetrahedron] = before;
+      labels_.turn(journal[i]);
+      if (labels_[journal[i]] == Label::outside && !filled_.empty()) filled_[journal[i].value] = 0;
     }
   }
 
+  void set_held(std::span<const TetrahedronIndex> tetrahedra, bool held) {
+    if (held_.empty()) held_.assign(t_.tetrahedra.size(), 0);
+    for (const TetrahedronIndex i : tetrahedra) held_[i.value] = held;
+  }
+
  private:
-  /// Writes a flip down; the samples of the tetrahedron come again.
-  void note(TetrahedronIndex tetrahedron, Label before) {
+  /// Turns a tetrahedron of the star; its samples come again.
+  void turn(std::uint32_t i) {
+    const TetrahedronIndex tetrahedron = star_[i];
     ++counts_.relabelled;
-    if (journal_) journal_->push_back({tetrahedron, before});
+    labels_.turn(tetrahedron);
+    if (journal_) journal_->push_back(tetrahedron);
     for (const SampleIndex v : t_.tetrahedra[tetrahedron]) {
       if (t_.is_corner(v) || waiting_[v.value]) continue;
       waiting_[v.value] = 1;
@@ -74,7 +81,7 @@ class StarRepair::Impl {
   bool is_mixed(SampleIndex s) const {
     const auto star = stars_[s];
     return std::any_of(star.begin(), star.end(),
-                       [&](TetrahedronIndex t) { return labels_.labels[t] != labels_.labels[star.front()]; });
+                       [&](TetrahedronIndex t) { return labels_[t] != labels_[star.front()]; });
   }
 
   void repair(SampleIndex s) {
@@ -104,11 +111,8 @@ class StarRepair::Impl {
   }
 
   void flip(std::uint32_t i) {
-    if (labels_.labels[star_[i]] == Label::inside) return set_outside(i);
-    const TetrahedronIndex tetrahedron = star_[i];
-    labels_.labels[tetrahedron] = Label::inside;
-    filled_[tetrahedron.value] = 1;
-    note(tetrahedron, Label::outside);
+    if (labels_[star_[i]] == Label::outside) filled_[star_[i].value] = 1;
+    turn(i);
   }
 
   struct Candidate {
@@ -119,7 +123,7 @@ class StarRepair::Impl {
   /// Offers the cheapest set of `label` (at an edge, or in the whole star); its price is Σ |value|.
   /// \return how many such sets there are
   std::uint32_t offer_components(Label label, SampleIndex edge, Candidate& best) {
-    const std::uint32_t count = star_.components(labels_.labels, label, edge, component_);
+    const std::uint32_t count = star_.components(labels_.labels(), label, edge, component_);
     if (count < 2) return count;
     price_.assign(count, 0.0);
     for (std::uint32_t i = 0; i < star_.size(); ++i) {
@@ -138,7 +142,7 @@ class StarRepair::Impl {
 
   /// Offers the cheapest path through the other label that joins two sets of `label`.
   void offer_path(Label label, Candidate& best) {
-    if (star_.components(labels_.labels, label, SampleIndex{}, component_) < 2) return;
+    if (star_.components(labels_.labels(), label, SampleIndex{}, component_) < 2) return;
     std::vector<std::uint32_t> path = cheapest_path(label);
     double price = 0;
     for (const std::uint32_t i : path) price += static_cast<double>(magnitude(i));
@@ -170,16 +174,11 @@ class StarRepair::Impl {
 
   // The paper's rule.
 
-  void set_outside(std::uint32_t i) {
-    const TetrahedronIndex tetrahedron = star_[i];
-    labels_.labels[tetrahedron] = Label::outside;
-    note(tetrahedron, Label::inside);
-  }
-
-  /// How sure the label is; what is known beforehand gives way last.
+  /// How sure the label is; what is held gives way late, what is known beforehand last.
   float magnitude(std::uint32_t i) const {
-    constexpr float known_price = 1e6f;
-    return known_[star_[i]] == Label::unlabelled ? std::fabs(labels_.value[star_[i]]) : known_price;
+    constexpr float known_price = 1e6f, held_price = 100; // values are at most 1
+    if (known_[star_[i]] != Label::unlabelled) return known_price;
+    return !held_.empty() && held_[star_[i].value] ? held_price : std::fabs(labels_.value(star_[i]));
   }
 
   double volume(std::uint32_t i) const {
@@ -200,17 +199,17 @@ class StarRepair::Impl {
 
   void drop_all_but(std::uint32_t kept) {
     for (std::uint32_t i = 0; i < star_.size(); ++i)
-      if (component_[i] != Star::none && component_[i] != kept) set_outside(i);
+      if (component_[i] != Star::none && component_[i] != kept) turn(i);
   }
 
   /// An edge with more than two surface triangles has several strands of inside tetrahedra around it.
   bool repair_one_edge() {
     surface_ends_.clear();
     for (std::uint32_t i = 0; i < star_.size(); ++i) {
-      if (labels_.labels[star_[i]] != Label::inside) continue;
+      if (labels_[star_[i]] != Label::inside) continue;
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t n = star_.neighbours(i)[k];
-        if (n == Star::none || labels_.labels[star_[n]] == Label::inside) continue;
+        if (n == Star::none || labels_[star_[n]] == Label::inside) continue;
         for (std::size_t j = 0; j < 3; ++j)
           if (j != k) surface_ends_.push_back(star_.others(i)[j]);
       }
@@ -222,7 +221,7 @@ class StarRepair::Impl {
         if (repair_edge_cheaply(surface_ends_[i])) return true;
         continue;
       }
-      if (star_.components(labels_.labels, Label::inside, surface_ends_[i], component_) < 2) continue;
+      if (star_.components(labels_.labels(), Label::inside, surface_ends_[i], component_) < 2) continue;
       drop_all_but(strongest_component());
       ++counts_.edges;
       return true;
@@ -231,7 +230,7 @@ class StarRepair::Impl {
   }
 
   void keep_one_inside_component(SampleIndex s) {
-    if (star_.components(labels_.labels, Label::inside, SampleIndex{}, component_) < 2) return;
+    if (star_.components(labels_.labels(), Label::inside, SampleIndex{}, component_) < 2) return;
     const PolePair pair = poles_.of_sample[s];
     std::uint32_t kept = Star::none, kept_pole = Star::none;
     for (std::uint32_t i = 0; i < star_.size(); ++i) {
@@ -248,8 +247,8 @@ class StarRepair::Impl {
   }
 
   bool join_two_outside_components() {
-    if (star_.components(labels_.labels, Label::outside, SampleIndex{}, component_) < 2) return false;
-    for (const std::uint32_t i : cheapest_path(Label::outside)) set_outside(i);
+    if (star_.components(labels_.labels(), Label::outside, SampleIndex{}, component_) < 2) return false;
+    for (const std::uint32_t i : cheapest_path(Label::outside)) turn(i);
     ++counts_.vertices;
     return true;
   }
@@ -293,12 +292,12 @@ class StarRepair::Impl {
   const Poles& poles_;
   const Labels& known_;
   ManifoldRule rule_;
-  FinalLabels& labels_;
+  TetrahedronLabels& labels_;
   Star star_;
   std::vector<std::uint8_t> waiting_;
   std::vector<std::uint32_t> next_; ///< those that wait for the next round
-  std::vector<Flip>* journal_ = nullptr;
-  std::vector<std::uint8_t> filled_;
+  TetrahedronLabels::Journal* journal_ = nullptr;
+  std::vector<std::uint8_t> filled_, held_; ///< tetrahedra; the second empty until some are held
   std::vector<std::uint32_t> component_;
   std::vector<double> price_;
   std::vector<SampleIndex> surface_ends_;
@@ -306,14 +305,16 @@ class StarRepair::Impl {
 };
 
 StarRepair::StarRepair(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& known,
-                       ManifoldRule rule, FinalLabels& labels)
+                       ManifoldRule rule, TetrahedronLabels& labels)
     : impl_(std::make_unique<Impl>(t, stars, poles, known, rule, labels)) {}
 StarRepair::~StarRepair() = default;
 
-ManifoldCounts StarRepair::run(std::vector<std::uint32_t> samples, std::vector<Flip>* journal,
+ManifoldCounts StarRepair::run(std::vector<std::uint32_t> samples, TetrahedronLabels::Journal* journal,
                                const Checkpoint& checkpoint) {
   return impl_->run(std::move(samples), journal, checkpoint);
 }
-void StarRepair::undo(std::span<const Flip> journal) { impl_->undo(journal); }
+void StarRepair::undo(const TetrahedronLabels::Journal& journal) { impl_->undo(journal); }
+void StarRepair::hold(std::span<const TetrahedronIndex> tetrahedra) { impl_->set_held(tetrahedra, true); }
+void StarRepair::release(std::span<const TetrahedronIndex> tetrahedra) { impl_->set_held(tetrahedra, false); }
 
 } // namespace eigencrust

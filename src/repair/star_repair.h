@@ -11,24 +11,23 @@
 
 namespace eigencrust {
 
-/// A tetrahedron that was relabelled, and what it was.
-struct Flip {
-  TetrahedronIndex tetrahedron;
-  Label before;
-};
-
 /// Repairs the stars of given samples; what is relabelled may be written down and undone.
 class StarRepair {
  public:
   StarRepair(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
-             const Labels& known, ManifoldRule rule, FinalLabels& labels);
+             const Labels& known, ManifoldRule rule, TetrahedronLabels& labels);
   ~StarRepair();
 
   /// Repairs the stars of `samples` (increasing, distinct) and whatever that spoils.
-  /// \param journal receives the flips in order; may be null
-  ManifoldCounts run(std::vector<std::uint32_t> samples, std::vector<Flip>* journal, const Checkpoint& checkpoint = {});
-  /// Takes back the flips of a journal, which must be the last that were made.
-  void undo(std::span<const Flip> journal);
+  /// \param journal receives what was turned, in order; may be null
+  ManifoldCounts run(std::vector<std::uint32_t> samples, TetrahedronLabels::Journal* journal,
+                     const Checkpoint& checkpoint = {});
+  /// Takes back a journal, which must hold the last turns that were made.
+  void undo(const TetrahedronLabels::Journal& journal);
+
+  /// These tetrahedra are dear from now on: only where nothing else will do they turn.
+  void hold(std::span<const TetrahedronIndex> tetrahedra);
+  void release(std::span<const TetrahedronIndex> tetrahedra);
 
  private:
   class Impl;

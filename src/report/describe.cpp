@@ -6,8 +6,13 @@
 
 #include "evidence/evidence.h"
 #include "points/point_results.h"
+#include "repair/handles.h"
+#include "repair/recover.h"
+#include "repair/spikes.h"
 #include "report/run.h"
 #include "samples/measures.h"
+#include "settle/centring.h"
+#include "surface/trim.h"
 
 namespace eigencrust {
 namespace {
@@ -78,6 +83,8 @@ void describe(const Partition& partition, Run& run) {
   if (partition.status == SolverStatus::not_converged)
     run.warn("the solver of the " + entry.stage + " stopped before the signs settled (residual " +
              std::to_string(partition.residual) + ")");
+  if (entry.stage == "tetrahedra" && supernodes_agree(partition))
+    run.warn("the second eigenvector puts inside and outside on the same side; use --second-stage harmonic");
 }
 
 void describe(const PoleLabels& labels, Run& run) {
@@ -85,11 +92,6 @@ void describe(const PoleLabels& labels, Run& run) {
   run.count("supernode_overruled", labels.reversed ? 1 : 0);
   run.count("contradicted", static_cast<double>(labels.contradicted));
   run.count("left_to_stage_two", static_cast<double>(labels.left_to_stage_two));
-}
-
-void describe(const FinalLabels& labels, Run& run) {
-  if (labels.supernodes_agree)
-    run.warn("the second eigenvector puts inside and outside on the same side; use --second-stage harmonic");
 }
 
 void describe(const CentringCounts& counts, Run& run) {

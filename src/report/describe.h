@@ -11,7 +11,12 @@
 namespace eigencrust {
 
 class Run;
+struct CentringCounts;
+struct HandleCounts;
+struct RecoveryCounts;
 struct SampleMeasures;
+struct SpikeCounts;
+struct UnsupportedTriangles;
 struct LinesOfSight;
 struct Contradictions;
 struct PointResults;
@@ -23,7 +28,6 @@ void describe(const Poles& poles, Run& run);
 void describe(const LinesOfSight& sight, Run& run);
 void describe(const Partition& partition, Run& run);
 void describe(const PoleLabels& labels, Run& run);
-void describe(const FinalLabels& labels, Run& run);
 void describe(const CentringCounts& counts, Run& run);
 void describe(const ManifoldCounts& counts, Run& run);
 void describe(const HandleCounts& counts, Run& run);

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include <eigencrust/eigencrust.h>
 #include <eigencrust/error.h>
-#include <eigencrust/version.h>
 
 namespace eigencrust {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include <eigencrust/version.h>
+#include <eigencrust/eigencrust.h>
 
 namespace eigencrust {
 namespace {

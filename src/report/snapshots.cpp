@@ -29,7 +29,7 @@ TriangleMesh snapshot_of_poles(const Tetrahedralization& t, const Poles& poles, 
   return snapshot;
 }
 
-TriangleMesh snapshot_of_tetrahedra(const Tetrahedralization& t, const FinalLabels& labels) {
+TriangleMesh snapshot_of_tetrahedra(const Tetrahedralization& t, const TetrahedronLabels& labels) {
   TriangleMesh snapshot;
   std::vector<float> value;
   std::vector<double> label;
@@ -38,8 +38,8 @@ TriangleMesh snapshot_of_tetrahedra(const Tetrahedralization& t, const FinalLabe
     Vec3 centroid = t.origin;
     for (const SampleIndex s : t.tetrahedra.raw()[i]) centroid = centroid + 0.25 * t.positions[s];
     snapshot.vertices.push_back(centroid);
-    value.push_back(labels.value.raw()[i]);
-    label.push_back(static_cast<double>(labels.labels.raw()[i]));
+    value.push_back(labels.values().raw()[i]);
+    label.push_back(static_cast<double>(labels.labels().raw()[i]));
   }
   snapshot.vertex_attributes = {make_attribute("value", value), label_column(label)};
   return snapshot;

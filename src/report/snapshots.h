@@ -11,7 +11,7 @@ namespace eigencrust {
 TriangleMesh snapshot_of_poles(const Tetrahedralization& tetrahedralization, const Poles& poles, const PoleGraph& graph,
                                const Partition& partition, const Labels& labels);
 /// Centroids of all tetrahedra that do not touch the cube: value and label of stage two.
-TriangleMesh snapshot_of_tetrahedra(const Tetrahedralization& tetrahedralization, const FinalLabels& labels);
+TriangleMesh snapshot_of_tetrahedra(const Tetrahedralization& tetrahedralization, const TetrahedronLabels& labels);
 /// The surface in input coordinates, before pieces are dropped.
 TriangleMesh snapshot_of_surface(const Tetrahedralization& tetrahedralization, const Surface& surface);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "samples/measures.h"
+#include "samples/noise_scale.h"
 
 #include <algorithm>
 

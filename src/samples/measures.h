@@ -7,6 +7,8 @@
 
 #include <eigencrust/stages.h>
 
+#include "samples/neighbourhoods.h"
+
 namespace eigencrust {
 
 struct SampleMeasures {

@@ -10,6 +10,7 @@
 
 #include "geometry/nearest.h"
 #include "parallel/threads.h"
+#include "samples/neighbourhoods.h"
 
 namespace eigencrust {
 namespace {

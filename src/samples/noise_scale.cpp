@@ -8,6 +8,7 @@
 
 #include "geometry/nearest.h"
 #include "parallel/threads.h"
+#include "samples/noise_scale.h"
 
 namespace eigencrust {
 namespace {

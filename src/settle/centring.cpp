@@ -7,6 +7,7 @@
 
 #include "geometry/nearest.h"
 #include "parallel/threads.h"
+#include "settle/centring.h"
 
 namespace eigencrust {
 namespace {
@@ -33,7 +34,7 @@ struct Level {
 class Centring {
  public:
   Centring(const Tetrahedralization& t, const VertexStars& stars, std::span<const float> reach,
-           std::span<const float> isolated, const Labels& first, const Threads& threads, FinalLabels& labels)
+           std::span<const float> isolated, const Labels& first, const Threads& threads, TetrahedronLabels& labels)
       : t_(t),
         stars_(stars),
         reach_(reach),
@@ -54,7 +55,7 @@ class Centring {
 
   std::uint64_t run() {
     const PointTree tree(centre_);
-    average([&](TetrahedronIndex i) { return labels_.value[i]; }, false);
+    average([&](TetrahedronIndex i) { return labels_.value(i); }, false);
     for (int k = 0; k < sharpenings; ++k) {
       measure_levels(tree);
       for_each_noisy([&](std::size_t i) {
@@ -160,16 +161,18 @@ class Centring {
 
   std::uint64_t relabel() {
     std::vector<std::uint8_t> changed(t_.tetrahedra.size(), 0);
+    Labels labels = labels_.labels();
+    IndexedArray<TetrahedronIndex, float> values = labels_.values();
     for_each_index(threads_, t_.tetrahedra.size(), [&](std::size_t k) {
       const TetrahedronIndex i{static_cast<std::uint32_t>(k)};
       if (first_[i] != Label::unlabelled) return;
       for (const SampleIndex s : t_.tetrahedra[i])
         if (t_.is_corner(s) || !is_noisy(s.value)) return;
-      labels_.value[i] = mean_at(i);
-      const Label side = labels_.value[i] >= 0 ? Label::outside : Label::inside;
-      changed[k] = side != labels_.labels[i];
-      labels_.labels[i] = side;
+      values[i] = mean_at(i);
+      labels[i] = values[i] >= 0 ? Label::outside : Label::inside;
+      changed[k] = labels[i] != labels_[i];
     });
+    labels_ = {std::move(labels), std::move(values)};
     return static_cast<std::uint64_t>(std::count(changed.begin(), changed.end(), 1));
   }
 
@@ -178,7 +181,7 @@ class Centring {
   std::span<const float> reach_, isolated_;
   const Labels& first_;
   const Threads& threads_;
-  FinalLabels& labels_;
+  TetrahedronLabels& labels_;
   std::uint32_t runs_;
   std::vector<Vec3> centre_;
   std::vector<float> value_, next_; ///< of samples; > 0 outside
@@ -189,7 +192,7 @@ class Centring {
 
 CentringCounts centre_in_noise(const Tetrahedralization& t, const VertexStars& stars, std::span<const float> reach,
                                std::span<const float> isolated, const Labels& first, const Threads& threads,
-                               FinalLabels& labels) {
+                               TetrahedronLabels& labels) {
   if (std::none_of(reach.begin(), reach.end(), [](float r) { return r > 0; })) return {};
   // Where nothing is known to be inside there is no surface to move.
   if (std::find(first.begin(), first.end(), Label::inside) == first.end()) return {};

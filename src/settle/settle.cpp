@@ -2,6 +2,7 @@
 #include "settle/settle.h"
 
 #include "report/snapshots.h"
+#include "settle/centring.h"
 
 namespace eigencrust {
 namespace {
@@ -19,7 +20,8 @@ Partition solution_of(SignedGraph graph, const Context& context) {
 }
 
 /// The second graph is gone when this returns: it needs most memory of all.
-FinalLabels label_rest(const Scene& scene, const PoleLabels& poles, const KeptSolution& kept, const Context& context) {
+TetrahedronLabels label_rest(const Scene& scene, const PoleLabels& poles, const KeptSolution& kept,
+                             const Context& context) {
   Run& run = context.run;
   TetrahedronGraph h = graph_of(scene, poles, context);
   const Partition solution = run.stage("partition_tetrahedra", [&] {
@@ -37,9 +39,10 @@ KeptSolution keep_solution(const Scene& scene, const PoleLabels& poles, const Co
   return {graph, solution, scene.tetrahedralization.tetrahedra.size()};
 }
 
-FinalLabels settle(const Scene& scene, const PoleLabels& poles, const Context& context, const KeptSolution& kept) {
+TetrahedronLabels settle(const Scene& scene, const PoleLabels& poles, const Context& context,
+                         const KeptSolution& kept) {
   const auto& [options, run, threads] = context;
-  FinalLabels labels = label_rest(scene, poles, kept, context);
+  TetrahedronLabels labels = label_rest(scene, poles, kept, context);
   if (options.centring)
     run.stage("centring", [&] {
       return centre_in_noise(scene.tetrahedralization, scene.stars, scene.measures.reach, scene.measures.isolated,

@@ -30,6 +30,7 @@ KeptSolution keep_solution(const Scene& scene, const PoleLabels& poles, const Co
 
 /// The stages tetrahedron_graph, partition_tetrahedra, label_tetrahedra and centring.
 /// \param kept solves the graph if it is not empty
-FinalLabels settle(const Scene& scene, const PoleLabels& poles, const Context& context, const KeptSolution& kept = {});
+TetrahedronLabels settle(const Scene& scene, const PoleLabels& poles, const Context& context,
+                         const KeptSolution& kept = {});
 
 } // namespace eigencrust

@@ -9,6 +9,7 @@
 #include <eigencrust/validate.h>
 
 #include "parallel/threads.h"
+#include "surface/components.h"
 #include "surface/drop_triangles.h"
 
 namespace eigencrust {

@@ -5,6 +5,7 @@
 #include <eigencrust/stages.h>
 
 #include "parallel/threads.h"
+#include "surface/support.h"
 #include "surface/triangle_support.h"
 
 namespace eigencrust {
@@ -19,7 +20,7 @@ TetrahedronIndex across(const Tetrahedralization& t, TetrahedronIndex inside, co
 
 } // namespace
 
-void measure_support(const Tetrahedralization& t, const FinalLabels& labels, const Neighbourhoods& neighbourhoods,
+void measure_support(const Tetrahedralization& t, const TetrahedronLabels& labels, const Neighbourhoods& neighbourhoods,
                      std::span<const float> grid_spacing, Surface& surface, const Threads& threads) {
   const TriangleSupport support(t, labels, neighbourhoods, grid_spacing);
   surface.support.resize(surface.mesh.triangles.size());

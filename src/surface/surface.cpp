@@ -4,6 +4,9 @@
 #include <eigencrust/error.h>
 
 #include "report/snapshots.h"
+#include "surface/components.h"
+#include "surface/support.h"
+#include "surface/trim.h"
 
 namespace eigencrust {
 namespace {
@@ -28,13 +31,13 @@ std::vector<SightLine> rays_of(const PointCloud& cloud, const Tetrahedralization
 
 } // namespace
 
-Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence& evidence, const FinalLabels& labels,
-                     const Context& context) {
+Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence& evidence,
+                     const TetrahedronLabels& labels, const Context& context) {
   const auto& [options, run, threads] = context;
   const Tetrahedralization& t = scene.tetrahedralization;
   const Neighbourhoods& around = scene.measures.around;
   const std::vector<float>& grid = scene.measures.grid;
-  Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels, threads); });
+  Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels(), threads); });
   run.product("surface", [&] { return snapshot_of_surface(t, surface); });
   run.stage("support", [&] { measure_support(t, labels, around, grid, surface, threads); });
   run.stage("components", [&] { return filter_components(surface, options.components, t, grid, threads); });

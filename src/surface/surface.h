@@ -12,8 +12,8 @@ namespace eigencrust {
 
 /// §3. The stages surface, support, components and trim.
 /// \throws Error{no_surface}
-Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence& evidence, const FinalLabels& labels,
-                     const Context& context);
+Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence& evidence,
+                     const TetrahedronLabels& labels, const Context& context);
 
 /// §3.6. The stages smoothing and attributes.
 TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene, const Context& context);

@@ -9,12 +9,14 @@
 
 #include <eigencrust/stages.h>
 
+#include "samples/neighbourhoods.h"
+
 namespace eigencrust {
 
 /// See measure_support.
 class TriangleSupport {
  public:
-  TriangleSupport(const Tetrahedralization& t, const FinalLabels& labels, const Neighbourhoods& neighbourhoods,
+  TriangleSupport(const Tetrahedralization& t, const TetrahedronLabels& labels, const Neighbourhoods& neighbourhoods,
                   std::span<const float> grid_spacing)
       : t_(t), labels_(labels), neighbourhoods_(neighbourhoods), grid_spacing_(grid_spacing) {}
 
@@ -27,7 +29,7 @@ class TriangleSupport {
       mean += scale(v[k]) / 3;
     }
     const double contrast =
-        outside.valid() ? std::fabs(static_cast<double>(labels_.value[outside] - labels_.value[inside])) : 0;
+        outside.valid() ? std::fabs(static_cast<double>(labels_.value(outside) - labels_.value(inside))) : 0;
     const double sampling = std::min(1.0, full_support * mean / longest);
     return static_cast<float>(sampling * (1 + std::min(1.0, contrast)) / 2);
   }
@@ -43,7 +45,7 @@ class TriangleSupport {
   }
 
   const Tetrahedralization& t_;
-  const FinalLabels& labels_;
+  const TetrahedronLabels& labels_;
   const Neighbourhoods& neighbourhoods_;
   std::span<const float> grid_spacing_;
 };

@@ -10,6 +10,7 @@
 #include "geometry/mesh_topology.h"
 #include "parallel/threads.h"
 #include "surface/drop_triangles.h"
+#include "surface/trim.h"
 
 namespace eigencrust {
 namespace {

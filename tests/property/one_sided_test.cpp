@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "parallel/threads.h"
+#include "samples/neighbourhoods.h"
 #include "support.h"
 
 namespace eigencrust {

@@ -4,6 +4,7 @@
 
 #include "clouds.h"
 #include "parallel/threads.h"
+#include "settle/centring.h"
 
 namespace eigencrust {
 namespace {
@@ -29,14 +30,14 @@ Points noisy_sphere(std::size_t n, std::uint64_t seed) {
 struct NoisySphere {
   Prepared p = clouds::prepare(noisy_sphere(10000, 1));
   Labels first;
-  FinalLabels labels;
+  TetrahedronLabels labels;
   std::vector<float> reach;
 
   /// Labels as from a second stage whose values change sign at radius `boundary`.
   explicit NoisySphere(double boundary) {
     const std::size_t n = p.t.tetrahedra.size();
     first = Labels(n, Label::unlabelled);
-    labels = {Labels(n, Label::outside), IndexedArray<TetrahedronIndex, float>(n, 1.0f), false};
+    clouds::HandMade made(n, 1);
     for (TetrahedronIndex i{0}; i.value < n; ++i.value) {
       const double r = radius(clouds::centroid(p.t, i));
       if (p.t.touches_cube(i) || r > 1 + settled) {
@@ -45,9 +46,9 @@ struct NoisySphere {
       }
       if (r < 1 - settled) first[i] = Label::inside;
       const double value = r < 1 - settled ? -1 : std::clamp((r - boundary) / 0.2, -1.0, 1.0);
-      labels.value[i] = static_cast<float>(value);
-      labels.labels[i] = value >= 0 ? Label::outside : Label::inside;
+      made.set(i, value >= 0 ? Label::outside : Label::inside, static_cast<float>(std::fabs(value)));
     }
+    labels = made.done();
     reach.assign(p.t.sample_count, static_cast<float>(2.4 * sigma));
   }
   [[nodiscard]] double radius(const Vec3& place) const { return norm(place + p.t.origin); }
@@ -56,7 +57,7 @@ struct NoisySphere {
     return centre_in_noise(p.t, p.stars, reach, isolated, first, team, labels).relabelled;
   }
   [[nodiscard]] double mean_radius() const {
-    const Surface surface = extract_surface(p.t, labels.labels, Threads(2));
+    const Surface surface = extract_surface(p.t, labels.labels(), Threads(2));
     double sum = 0;
     for (const Vec3& v : surface.mesh.vertices) sum += radius(v);
     return sum / static_cast<double>(surface.mesh.vertices.size());
@@ -66,10 +67,10 @@ struct NoisySphere {
 TEST(Centring, WithoutReachNothingChanges) {
   NoisySphere sphere(0.9);
   std::fill(sphere.reach.begin(), sphere.reach.end(), 0.0f);
-  const FinalLabels before = sphere.labels;
+  const TetrahedronLabels before = sphere.labels;
   EXPECT_EQ(sphere.centre(), 0u);
-  EXPECT_EQ(sphere.labels.labels.raw(), before.labels.raw());
-  EXPECT_EQ(sphere.labels.value.raw(), before.value.raw());
+  EXPECT_EQ(sphere.labels.labels().raw(), before.labels().raw());
+  EXPECT_EQ(sphere.labels.values().raw(), before.values().raw());
   sphere.reach.clear();
   EXPECT_EQ(sphere.centre(), 0u);
 }
@@ -78,11 +79,11 @@ TEST(Centring, MovesTheBoundaryToTheMiddleOfTheSamples) {
   for (const double boundary : {0.9, 1.1}) { // from within as well as from outside
     NoisySphere sphere(boundary);
     ASSERT_GT(std::fabs(sphere.mean_radius() - 1), 0.5 * sigma);
-    const Labels before = sphere.labels.labels;
+    const Labels before = sphere.labels.labels();
     const std::uint64_t changed = sphere.centre();
     EXPECT_NEAR(sphere.mean_radius(), 1, 0.25 * sigma) << boundary;
     std::uint64_t different = 0;
-    for (std::uint32_t i = 0; i < before.size(); ++i) different += before.raw()[i] != sphere.labels.labels.raw()[i];
+    for (std::uint32_t i = 0; i < before.size(); ++i) different += before.raw()[i] != sphere.labels.labels().raw()[i];
     EXPECT_GT(changed, 0u);
     EXPECT_EQ(changed, different);
   }
@@ -95,7 +96,7 @@ TEST(Centring, HalfOfTheSamplesAreOnEitherSide) {
     double outside = 0, inside = 0;
     for (SampleIndex s{0}; s.value < sphere.p.t.sample_count; ++s.value) {
       int balance = 0;
-      for (const TetrahedronIndex i : sphere.p.stars[s]) balance += sphere.labels.labels[i] == Label::outside ? 1 : -1;
+      for (const TetrahedronIndex i : sphere.p.stars[s]) balance += sphere.labels[i] == Label::outside ? 1 : -1;
       outside += balance > 0;
       inside += balance < 0;
     }
@@ -114,19 +115,18 @@ TEST(Centring, WhatTheFirstStageSettledStays) {
     const Vec3 c = clouds::centroid(sphere.p.t, i) + sphere.p.t.origin;
     if (sphere.p.t.touches_cube(i) || distance(c, {0.9, 0, 0}) > 0.1) continue;
     sphere.first[i] = Label::outside;
-    sphere.labels.labels[i] = Label::outside;
-    sphere.labels.value[i] = 1;
+    clouds::put(sphere.labels, i, Label::outside, 1);
     ++wrong;
   }
   ASSERT_GT(wrong, 20u);
-  const FinalLabels before = sphere.labels;
+  const TetrahedronLabels before = sphere.labels;
   sphere.centre();
   for (TetrahedronIndex i{0}; i.value < sphere.first.size(); ++i.value) {
     if (sphere.first[i] != Label::unlabelled) {
-      ASSERT_EQ(sphere.labels.labels[i], before.labels[i]);
-      ASSERT_EQ(sphere.labels.value[i], before.value[i]);
+      ASSERT_EQ(sphere.labels[i], before[i]);
+      ASSERT_EQ(sphere.labels.value(i), before.value(i));
     } else {
-      ASSERT_EQ(sphere.labels.labels[i], sphere.labels.value[i] >= 0 ? Label::outside : Label::inside);
+      ASSERT_EQ(sphere.labels[i], sphere.labels.value(i) >= 0 ? Label::outside : Label::inside);
     }
   }
 }
@@ -137,7 +137,7 @@ TEST(Centring, WhereThereIsNoNoiseNothingMoves) {
     if (sphere.p.t.positions.raw()[s].x + sphere.p.t.origin.x < 0) sphere.reach[s] = 0;
   sphere.centre();
   double left = 0, right = 0, on_left = 0, on_right = 0;
-  const Surface surface = extract_surface(sphere.p.t, sphere.labels.labels, Threads(2));
+  const Surface surface = extract_surface(sphere.p.t, sphere.labels.labels(), Threads(2));
   for (const Vec3& v : surface.mesh.vertices) {
     const double x = v.x + sphere.p.t.origin.x;
     if (std::fabs(x) < 0.5) continue;
@@ -151,8 +151,8 @@ TEST(Centring, WhereThereIsNoNoiseNothingMoves) {
 TEST(Centring, DoesNotDependOnThreads) {
   NoisySphere one(0.9), three(0.9);
   EXPECT_EQ(one.centre(1), three.centre(3));
-  EXPECT_EQ(one.labels.labels.raw(), three.labels.labels.raw());
-  EXPECT_EQ(one.labels.value.raw(), three.labels.value.raw());
+  EXPECT_EQ(one.labels.labels().raw(), three.labels.labels().raw());
+  EXPECT_EQ(one.labels.values().raw(), three.labels.values().raw());
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "clouds.h"
+#include "surface/components.h"
 
 namespace eigencrust {
 namespace {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "clouds.h"
+#include "evidence/named_points.h"
+#include "samples/neighbourhoods.h"
 #include "support.h"
 
 namespace eigencrust {

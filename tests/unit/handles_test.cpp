@@ -7,6 +7,7 @@
 
 #include "clouds.h"
 #include "repair/handle_loops.h"
+#include "repair/handles.h"
 #include "repair/surface_part.h"
 
 namespace eigencrust {
@@ -99,11 +100,11 @@ MeshSummary summary_of(const Tetrahedralization& t, const Labels& labels) {
 TEST(SurfacePart, OfAllSamplesIsTheWholeSurface) {
   const Prepared p = clouds::prepare(clouds::random_box(400, 1));
   for (const double share : {0.1, 0.3, 0.5, 0.8}) { // few pieces up to many handles
-    FinalLabels labels = clouds::random_labels(p.t, share, 2);
+    TetrahedronLabels labels = clouds::random_labels(p.t, share, 2);
     make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::cheapest, labels, Threads(2));
-    const MeshSummary whole = summary_of(p.t, labels.labels);
+    const MeshSummary whole = summary_of(p.t, labels.labels());
     ASSERT_GT(whole.components, 0u);
-    const SurfacePart part = surface_part(p.t, p.stars, labels.labels, all_samples(p.t));
+    const SurfacePart part = surface_part(p.t, p.stars, labels.labels(), all_samples(p.t));
     EXPECT_EQ(part.closed_pieces, static_cast<std::int64_t>(whole.components));
     EXPECT_EQ(part.euler, 2 * (static_cast<std::int64_t>(whole.components) - whole.genus));
   }
@@ -132,7 +133,7 @@ TEST(SurfacePart, ATetrahedronIsASphereAndOpenWhereASampleIsLeftOut) {
 
 TEST(SurfacePart, DifferenceOfAChangeIsThatOfTheWholeSurface) {
   const Prepared p = clouds::prepare(clouds::random_box(120, 4));
-  Labels labels = clouds::random_labels(p.t, 0.5, 5).labels; // not even a manifold
+  Labels labels = clouds::random_labels(p.t, 0.5, 5).labels(); // not even a manifold
   clouds::Random random(6);
   std::set<std::int64_t> differences;
   for (int k = 0; k < 60; ++k) {
@@ -155,7 +156,7 @@ TEST(SurfacePart, DifferenceOfAChangeIsThatOfTheWholeSurface) {
 struct Solid {
   Prepared p = clouds::prepare(clouds::random_box(2500, 12));
   Labels first;
-  FinalLabels labels;
+  TetrahedronLabels labels;
   std::vector<float> grid_spacing;
 
   /// `inside(c)` and `open(c)` say what is true of the tetrahedron with that centroid; open ones have a
@@ -164,16 +165,16 @@ struct Solid {
   Solid(Inside&& inside, Open&& open, float certainty) {
     const std::size_t n = p.t.tetrahedra.size();
     first = Labels(n, Label::outside);
-    labels = {Labels(n, Label::outside), IndexedArray<TetrahedronIndex, float>(n, 1.0f), false};
+    clouds::HandMade made(n, 1);
     for (TetrahedronIndex i{0}; i.value < n; ++i.value) {
       if (p.t.touches_cube(i)) continue;
       const Vec3 c = clouds::centroid(p.t, i);
       const bool is_open = open(c);
       const Label side = inside(c) ? Label::inside : Label::outside;
-      labels.labels[i] = side;
-      labels.value[i] = (side == Label::inside ? -1.0f : 1.0f) * (is_open ? certainty : 1.0f);
+      made.set(i, side, is_open ? certainty : 1.0f);
       first[i] = is_open ? Label::unlabelled : side;
     }
+    labels = made.done();
     make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::cheapest, labels, Threads(2));
     grid_spacing.assign(p.t.sample_count, 0.05f); // loops of up to 3.2 are noise: all of them
   }
@@ -182,7 +183,7 @@ struct Solid {
                          Threads(2))
         .closed;
   }
-  [[nodiscard]] MeshSummary summary() const { return summary_of(p.t, labels.labels); }
+  [[nodiscard]] MeshSummary summary() const { return summary_of(p.t, labels.labels()); }
 };
 
 constexpr double ball_radius = 0.75, tunnel_radius = 0.2; // the points are about 0.15 apart
@@ -196,27 +197,27 @@ Solid pierced_ball(float certainty) {
 
 void expect_unchanged(Solid& solid, std::int64_t genus = 1) {
   ASSERT_EQ(solid.summary().genus, genus); // with none there would be nothing to change anyway
-  const FinalLabels before = solid.labels;
+  const TetrahedronLabels before = solid.labels;
   EXPECT_EQ(solid.close(), 0u);
-  EXPECT_EQ(solid.labels.labels.raw(), before.labels.raw());
-  EXPECT_EQ(solid.labels.value.raw(), before.value.raw());
+  EXPECT_EQ(solid.labels.labels().raw(), before.labels().raw());
+  EXPECT_EQ(solid.labels.values().raw(), before.values().raw());
 }
 
 TEST(CloseHandles, FillsATunnelThatNothingVouchesFor) {
   Solid solid = pierced_ball(0.3f);
   ASSERT_EQ(solid.summary().genus, 1);
-  const FinalLabels before = solid.labels;
+  const TetrahedronLabels before = solid.labels;
   EXPECT_EQ(solid.close(), 1u);
   const MeshSummary after = solid.summary();
   EXPECT_EQ(after.genus, 0);
   EXPECT_TRUE(after.closed() && after.manifold() && after.oriented());
   int filled = 0, dug = 0;
   for (TetrahedronIndex i{0}; i.value < solid.first.size(); ++i.value) {
-    EXPECT_EQ(std::fabs(solid.labels.value[i]), std::fabs(before.value[i]));
-    if (solid.labels.labels[i] == before.labels[i]) continue;
-    EXPECT_EQ(solid.labels.value[i] < 0, solid.labels.labels[i] == Label::inside); // the sign follows
-    filled += solid.labels.labels[i] == Label::inside && in_tunnel(clouds::centroid(solid.p.t, i));
-    dug += solid.labels.labels[i] == Label::outside;
+    EXPECT_EQ(std::fabs(solid.labels.value(i)), std::fabs(before.value(i)));
+    if (solid.labels[i] == before[i]) continue;
+    EXPECT_EQ(solid.labels.value(i) < 0, solid.labels[i] == Label::inside); // the sign follows
+    filled += solid.labels[i] == Label::inside && in_tunnel(clouds::centroid(solid.p.t, i));
+    dug += solid.labels[i] == Label::outside;
   }
   EXPECT_GT(filled, 0);
   EXPECT_LE(dug, filled);     // the repair may take away some, but the tunnel is filled and the ball not cut
@@ -252,7 +253,7 @@ TEST(CloseHandles, LoopsLargerThanTheNoiseStay) {
 
 TEST(CloseHandles, WhatTheFirstStageVouchesForStays) {
   Solid solid = pierced_ball(0.3f);
-  for (TetrahedronIndex i{0}; i.value < solid.first.size(); ++i.value) solid.first[i] = solid.labels.labels[i];
+  for (TetrahedronIndex i{0}; i.value < solid.first.size(); ++i.value) solid.first[i] = solid.labels[i];
   expect_unchanged(solid);
 }
 

@@ -200,17 +200,40 @@ TEST(LabelTetrahedra, TakeTheSideOfTheSupernodeWhoseSignTheyShare) {
     Partition partition;
     partition.supernode_value = {0.5 * static_cast<double>(sign), -0.25 * static_cast<double>(sign)};
     partition.value = {0.125f * sign, -0.75f * sign};
-    const FinalLabels result =
+    const TetrahedronLabels result =
         label_tetrahedra(graph, partition, Labels(std::vector<Label>{outside, unlabelled, inside, unlabelled}));
-    EXPECT_THAT(result.labels.raw(), testing::ElementsAre(outside, outside, inside, inside));
-    EXPECT_THAT(result.value.raw(), testing::ElementsAre(0.5f, 0.125f, -0.25f, -0.75f));
-    EXPECT_FALSE(result.supernodes_agree);
+    EXPECT_THAT(result.labels().raw(), testing::ElementsAre(outside, outside, inside, inside));
+    EXPECT_THAT(result.values().raw(), testing::ElementsAre(0.5f, 0.125f, -0.25f, -0.75f));
+    EXPECT_FALSE(supernodes_agree(partition));
   }
   Partition useless;
   useless.supernode_value = {0.5, 0.25};
   useless.value = {0, 0.1f};
-  EXPECT_TRUE(label_tetrahedra(graph, useless, Labels(std::vector<Label>{outside, unlabelled, inside, unlabelled}))
-                  .supernodes_agree);
+  EXPECT_TRUE(supernodes_agree(useless));
+}
+
+TEST(TetrahedronLabels, KeepSideAndSignTogetherThereAndBack) {
+  constexpr Label outside = Label::outside, inside = Label::inside;
+  const TetrahedronIndex a{0}, b{1}, zero{2};
+  TetrahedronLabels labels(Labels(std::vector<Label>{outside, inside, outside}),
+                           IndexedArray<TetrahedronIndex, float>(std::vector<float>{-0.5f, 0.25f, 0.0f}));
+  const auto expect = [&](Label of_a, Label of_b, float value_a, float value_b) {
+    EXPECT_THAT(labels.labels().raw(), testing::ElementsAre(of_a, of_b, labels[zero]));
+    EXPECT_EQ(labels.value(a), value_a);
+    EXPECT_EQ(labels.value(b), value_b);
+    EXPECT_EQ(std::signbit(labels.value(zero)), labels[zero] == inside);
+  };
+  expect(outside, inside, 0.5f, -0.25f); // the size counts
+  TetrahedronLabels::Journal journal;
+  labels.turn(a, journal);
+  labels.turn(zero, journal);
+  labels.turn(a, journal);
+  labels.turn(b, journal);
+  expect(outside, outside, 0.5f, 0.25f);
+  EXPECT_THAT(journal, testing::ElementsAre(a, zero, a, b));
+  labels.undo(journal);
+  expect(outside, inside, 0.5f, -0.25f);
+  EXPECT_EQ(labels[zero], outside);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "clouds.h"
+#include "evidence/contradictions.h"
 #include "tetrahedra/segment_walk.h"
 
 namespace eigencrust {

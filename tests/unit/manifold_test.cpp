@@ -15,13 +15,9 @@ namespace {
 using clouds::Prepared;
 
 /// All outside with value 1.
-FinalLabels all_outside(const Tetrahedralization& t) {
-  return {Labels(t.tetrahedra.size(), Label::outside), IndexedArray<TetrahedronIndex, float>(t.tetrahedra.size(), 1.0f),
-          false};
-}
-void set_inside(FinalLabels& labels, TetrahedronIndex t, float certainty) {
-  labels.labels[t] = Label::inside;
-  labels.value[t] = -certainty;
+TetrahedronLabels all_outside(const Tetrahedralization& t) { return clouds::HandMade(t.tetrahedra.size(), 1).done(); }
+void set_inside(TetrahedronLabels& labels, TetrahedronIndex t, float certainty) {
+  clouds::put(labels, t, Label::inside, certainty);
 }
 
 std::set<SampleIndex> vertices_of(const Tetrahedralization& t, TetrahedronIndex i) {
@@ -34,15 +30,15 @@ std::vector<SampleIndex> shared(const Tetrahedralization& t, TetrahedronIndex a,
   return common;
 }
 
-std::vector<TetrahedronIndex> inside_of(const FinalLabels& labels) {
+std::vector<TetrahedronIndex> inside_of(const TetrahedronLabels& labels) {
   std::vector<TetrahedronIndex> inside;
-  for (std::uint32_t i = 0; i < labels.labels.size(); ++i)
-    if (labels.labels.raw()[i] == Label::inside) inside.push_back(TetrahedronIndex{i});
+  for (TetrahedronIndex i{0}; i.value < labels.size(); ++i.value)
+    if (labels[i] == Label::inside) inside.push_back(i);
   return inside;
 }
 
-void expect_closed_manifold(const Tetrahedralization& t, const FinalLabels& labels) {
-  const Surface surface = extract_surface(t, labels.labels, Threads(2));
+void expect_closed_manifold(const Tetrahedralization& t, const TetrahedronLabels& labels) {
+  const Surface surface = extract_surface(t, labels.labels(), Threads(2));
   if (surface.mesh.triangles.empty()) return;
   const MeshSummary summary = validate(surface.mesh, {.self_intersections = false, .merge_equal_vertices = false});
   EXPECT_TRUE(summary.closed() && summary.manifold() && summary.oriented());
@@ -61,7 +57,7 @@ TEST(Manifold, WhatIsManifoldIsLeftAlone) {
   const Prepared p = clouds::prepare(clouds::random_box(60, 1));
   const auto [a, b] = pair_sharing(p.t, 3);
   for (const ManifoldRule rule : {ManifoldRule::paper, ManifoldRule::cheapest}) {
-    FinalLabels labels = all_outside(p.t);
+    TetrahedronLabels labels = all_outside(p.t);
     set_inside(labels, a, 0.5f);
     set_inside(labels, b, 0.25f);
     const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, rule, labels, Threads(2));
@@ -75,7 +71,7 @@ TEST(Manifold, OfTwoStrandsAtAnEdgeTheMoreCertainStays) {
   const auto [a, b] = pair_sharing(p.t, 2);
   for (const ManifoldRule rule : {ManifoldRule::paper, ManifoldRule::cheapest})
     for (const bool first_is_stronger : {true, false}) {
-      FinalLabels labels = all_outside(p.t); // outside is certain: filling up would cost more
+      TetrahedronLabels labels = all_outside(p.t); // outside is certain: filling up would cost more
       set_inside(labels, a, first_is_stronger ? 0.5f : 0.25f);
       set_inside(labels, b, first_is_stronger ? 0.25f : 0.5f);
       const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, rule, labels, Threads(2));
@@ -89,7 +85,7 @@ TEST(Manifold, OfEquallyCertainStrandsTheLargerStays) {
   const Prepared p = clouds::prepare(clouds::random_box(60, 3));
   for (std::uint32_t start = 0; start < 40; start += 10) {
     const auto [a, b] = pair_sharing(p.t, 2, start);
-    FinalLabels labels = all_outside(p.t);
+    TetrahedronLabels labels = all_outside(p.t);
     set_inside(labels, a, 0.5f);
     set_inside(labels, b, 0.5f);
     make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, labels, Threads(2));
@@ -116,20 +112,19 @@ TEST(Manifold, ThinOutsideWedgeIsFilledWhereThatIsCheapest) {
     for (const TetrahedronIndex t : ring)
       if (t != ring[0] && shared(p.t, t, ring[0]).size() == 2) other = t;
     ASSERT_TRUE(other.valid());
-    FinalLabels labels = all_outside(p.t);
+    TetrahedronLabels labels = all_outside(p.t);
     for (const TetrahedronIndex t : ring) set_inside(labels, t, 0.5f);
-    for (const TetrahedronIndex t : {ring[0], other}) labels.labels[t] = Label::outside;
-    labels.value[ring[0]] = 0.125f;
-    labels.value[other] = 1.0f;
-    FinalLabels paper = labels;
+    clouds::put(labels, ring[0], Label::outside, 0.125f);
+    clouds::put(labels, other, Label::outside, 1.0f);
+    TetrahedronLabels paper = labels;
     const ManifoldCounts counts =
         make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::cheapest, labels, Threads(2));
     EXPECT_EQ(counts.relabelled, 1u);
-    EXPECT_EQ(labels.labels[ring[0]], Label::inside);
-    EXPECT_EQ(labels.labels[other], Label::outside);
+    EXPECT_EQ(labels[ring[0]], Label::inside);
+    EXPECT_EQ(labels[other], Label::outside);
     expect_closed_manifold(p.t, labels);
     make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, paper, Threads(2));
-    EXPECT_EQ(paper.labels[ring[0]], Label::outside);
+    EXPECT_EQ(paper[ring[0]], Label::outside);
     expect_closed_manifold(p.t, paper);
     return;
   }
@@ -147,7 +142,7 @@ TEST(Manifold, AtABowTieTheComponentWithThePoleStays) {
     if (p.t.touches_cube(pole)) continue;
     for (const TetrahedronIndex other : p.stars[s]) {
       if (other == first || p.t.touches_cube(other) || shared(p.t, pole, other).size() != 1) continue;
-      FinalLabels labels = all_outside(p.t);
+      TetrahedronLabels labels = all_outside(p.t);
       set_inside(labels, pole, 0.25f);
       set_inside(labels, other, 0.5f); // more certain, but no pole
       const ManifoldCounts counts =
@@ -179,14 +174,14 @@ TEST(Manifold, CavitiesThatTouchAreJoinedAlongTheShortestPath) {
     for (const TetrahedronIndex t : star)
       if (shared(p.t, t, star[0]).size() == 1) other = t;
     if (!other.valid()) continue;
-    FinalLabels labels = all_outside(p.t);
+    TetrahedronLabels labels = all_outside(p.t);
     for (std::uint32_t k = 0; k < p.t.tetrahedra.size(); ++k)
       if (!p.t.touches_cube(TetrahedronIndex{k}))
         set_inside(labels, TetrahedronIndex{k}, static_cast<float>(random.uniform(0.1, 1)));
-    FinalLabels solid = labels;
+    TetrahedronLabels solid = labels;
     make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, solid,
                   Threads(2)); // its hull may need repair, once
-    for (const TetrahedronIndex t : {star[0], other}) solid.labels[t] = Label::outside;
+    for (const TetrahedronIndex t : {star[0], other}) clouds::put(solid, t, Label::outside);
     // Bellman-Ford over the star.
     std::map<TetrahedronIndex, double> length;
     for (const TetrahedronIndex t : star) length[t] = std::numeric_limits<double>::infinity();
@@ -195,14 +190,14 @@ TEST(Manifold, CavitiesThatTouchAreJoinedAlongTheShortestPath) {
       for (const TetrahedronIndex t : star)
         for (const TetrahedronIndex n : p.t.neighbours[t])
           if (length.count(n))
-            length[n] = std::min(length[n], length[t] + (n == other ? 0.0 : std::fabs(double(solid.value[n]))));
-    const FinalLabels before = solid;
+            length[n] = std::min(length[n], length[t] + (n == other ? 0.0 : std::fabs(double(solid.value(n)))));
+    const TetrahedronLabels before = solid;
     const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, solid, Threads(2));
     expect_closed_manifold(p.t, solid);
     if (counts.vertices != 1 || counts.edges != 0) continue; // the path met something else
     double price = 0;
     for (const TetrahedronIndex t : star)
-      if (before.labels[t] != solid.labels[t]) price += std::fabs(static_cast<double>(solid.value[t]));
+      if (before[t] != solid[t]) price += std::fabs(static_cast<double>(solid.value(t)));
     EXPECT_NEAR(price, length[other], 1e-9);
     ++tried;
   }
@@ -211,7 +206,7 @@ TEST(Manifold, CavitiesThatTouchAreJoinedAlongTheShortestPath) {
 
 TEST(Manifold, CheckpointMayCancel) {
   const Prepared p = clouds::prepare(clouds::random_box(60, 8));
-  FinalLabels labels = clouds::random_labels(p.t, 0.5, 9);
+  TetrahedronLabels labels = clouds::random_labels(p.t, 0.5, 9);
   const auto cancel = [](double) { throw std::runtime_error("cancelled"); };
   EXPECT_THROW(make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, labels, Threads(2), cancel),
                std::runtime_error);

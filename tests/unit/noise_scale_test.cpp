@@ -4,6 +4,7 @@
 #include <eigencrust/stages.h>
 
 #include "clouds.h"
+#include "samples/noise_scale.h"
 
 namespace eigencrust {
 namespace {

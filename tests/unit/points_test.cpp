@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "clouds.h"
+#include "points/classify.h"
+#include "points/orient.h"
 #include "shapes.h"
 
 namespace eigencrust {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <eigencrust/eigencrust.h>
 #include <eigencrust/report.h>
-#include <eigencrust/version.h>
 #include <gmock/gmock.h>
 
 #include <limits>

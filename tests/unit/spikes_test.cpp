@@ -6,6 +6,8 @@
 
 #include "clouds.h"
 #include "parallel/threads.h"
+#include "repair/spikes.h"
+#include "samples/neighbourhoods.h"
 
 namespace eigencrust {
 namespace {
@@ -21,7 +23,7 @@ struct Spike {
   SampleIndex tip;
   std::vector<TetrahedronIndex> spike; ///< between the tip and the surface
   Labels first;
-  FinalLabels labels;
+  TetrahedronLabels labels;
   Neighbourhoods neighbourhoods;
 
   Spike(const Vec3& place, std::size_t tetrahedra, std::size_t samples = 2000)
@@ -30,25 +32,22 @@ struct Spike {
       if (distance(p.t.positions[s] + p.t.origin, place) < 1e-9) tip = s;
     const std::size_t n = p.t.tetrahedra.size();
     first = Labels(n, Label::unlabelled);
-    labels = {Labels(n, Label::outside), IndexedArray<TetrahedronIndex, float>(n, 0.05f), false};
+    clouds::HandMade made(n, 0.05f);
     const bool beyond = norm(place) > 1;
     for (TetrahedronIndex i{0}; i.value < n; ++i.value) {
       if (p.t.touches_cube(i) || (beyond && at_tip(i))) continue;
-      labels.labels[i] = Label::inside;
-      labels.value[i] = -0.05f;
+      made.set(i, Label::inside, 0.05f);
     }
+    labels = made.done();
     neighbourhoods = sample_neighbourhoods(std::span(p.t.positions.raw()).first(p.t.sample_count), threads);
     // Tetrahedra with a surface triangle opposite the tip, each beside the one before.
     const Label around = beyond ? Label::outside : Label::inside;
     for (const TetrahedronIndex i : p.stars[tip]) {
       if (spike.size() == tetrahedra) break;
-      if (p.t.touches_cube(i) || labels.labels[across_from_tip(i)] == around) continue;
+      if (p.t.touches_cube(i) || labels[across_from_tip(i)] == around) continue;
       if (spike.empty() || is_beside(i, spike.back())) spike.push_back(i);
     }
-    for (const TetrahedronIndex i : spike) {
-      labels.labels[i] = beyond ? Label::inside : Label::outside;
-      labels.value[i] = -labels.value[i];
-    }
+    for (const TetrahedronIndex i : spike) clouds::put(labels, i, beyond ? Label::inside : Label::outside);
   }
   [[nodiscard]] bool at_tip(TetrahedronIndex i) const {
     const auto& v = p.t.tetrahedra[i];
@@ -62,7 +61,7 @@ struct Spike {
     const auto& n = p.t.neighbours[i];
     return std::find(n.begin(), n.end(), j) != n.end();
   }
-  [[nodiscard]] Surface surface() const { return extract_surface(p.t, labels.labels, Threads(2)); }
+  [[nodiscard]] Surface surface() const { return extract_surface(p.t, labels.labels(), Threads(2)); }
   [[nodiscard]] bool tip_on_surface() const {
     const Surface s = surface();
     return std::find(s.sample_of.begin(), s.sample_of.end(), tip) != s.sample_of.end();
@@ -71,10 +70,10 @@ struct Spike {
     return cut_spikes(p.t, p.stars, p.poles, first, p.known, neighbourhoods, {}, ManifoldRule::cheapest, labels).cut;
   }
   void expect_uncut() {
-    const FinalLabels before = labels;
+    const TetrahedronLabels before = labels;
     EXPECT_EQ(cut(), 0u);
-    EXPECT_EQ(labels.labels.raw(), before.labels.raw());
-    EXPECT_EQ(labels.value.raw(), before.value.raw());
+    EXPECT_EQ(labels.labels().raw(), before.labels().raw());
+    EXPECT_EQ(labels.values().raw(), before.values().raw());
   }
 };
 
@@ -86,8 +85,8 @@ TEST(Spikes, AreCutWhereNoPoleVouchesForThem) {
     ASSERT_TRUE(spike.tip_on_surface());
     EXPECT_EQ(spike.cut(), 1u);
     for (const TetrahedronIndex i : spike.spike) {
-      EXPECT_EQ(spike.labels.labels[i], Label::outside);
-      EXPECT_GT(spike.labels.value[i], 0);
+      EXPECT_EQ(spike.labels[i], Label::outside);
+      EXPECT_GT(spike.labels.value(i), 0);
     }
     // What is left is the sphere, with all its samples.
     EXPECT_EQ(spike.surface().mesh.vertices.size(), 2000u);
@@ -103,7 +102,7 @@ TEST(Spikes, PitsAreFilled) {
   pit.neighbourhoods.isolated[pit.tip.value] = 1; // 25 spacings from everything: a support of 0.05
   ASSERT_TRUE(pit.tip_on_surface());
   EXPECT_EQ(pit.cut(), 1u);
-  EXPECT_EQ(pit.labels.labels[pit.spike.front()], Label::inside);
+  EXPECT_EQ(pit.labels[pit.spike.front()], Label::inside);
   EXPECT_EQ(pit.surface().mesh.vertices.size(), 8000u);
 }
 
@@ -127,8 +126,7 @@ TEST(Spikes, ShortOnesAndSureOnesStay) {
 
   Spike sure({0.3, 0.2, 2.2}, 1); // 15 spacings and full contrast: 0.17
   ASSERT_GT(sure.neighbourhoods.isolated[sure.tip.value], 0);
-  for (TetrahedronIndex i{0}; i.value < sure.labels.value.size(); ++i.value)
-    sure.labels.value[i] = sure.labels.labels[i] == Label::inside ? -1.0f : 1.0f;
+  sure.labels = {sure.labels.labels(), IndexedArray<TetrahedronIndex, float>(sure.labels.size(), 1.0f)};
   sure.expect_uncut();
 }
 
@@ -138,15 +136,15 @@ TEST(Spikes, LidsStay) {
   std::erase_if(bowl, [](const Vec3& p) { return p.z > 0; });
   Prepared p = clouds::prepare(bowl);
   Labels first(p.t.tetrahedra.size(), Label::unlabelled);
-  FinalLabels labels{Labels(p.t.tetrahedra.size(), Label::outside),
-                     IndexedArray<TetrahedronIndex, float>(p.t.tetrahedra.size(), 0.0f), false};
+  clouds::HandMade made(p.t.tetrahedra.size(), 0);
   for (TetrahedronIndex i{0}; i.value < p.t.tetrahedra.size(); ++i.value)
-    if (!p.t.touches_cube(i)) labels.labels[i] = Label::inside;
+    if (!p.t.touches_cube(i)) made.set(i, Label::inside, 0);
+  TetrahedronLabels labels = made.done();
   const Threads threads(2);
   const Neighbourhoods around = sample_neighbourhoods(std::span(p.t.positions.raw()).first(p.t.sample_count), threads);
-  const Labels before = labels.labels;
+  const Labels before = labels.labels();
   EXPECT_EQ(cut_spikes(p.t, p.stars, p.poles, first, p.known, around, {}, ManifoldRule::cheapest, labels).cut, 0u);
-  EXPECT_EQ(labels.labels.raw(), before.raw());
+  EXPECT_EQ(labels.labels().raw(), before.raw());
 }
 
 /// The sphere, a cluster of samples far from it, and a tetrahedron from the sphere's surface to one of them.
@@ -154,13 +152,12 @@ struct Fin {
   Prepared p;
   std::vector<TetrahedronIndex> fin;
   Labels first;
-  FinalLabels labels;
+  TetrahedronLabels labels;
 
   explicit Fin(std::size_t cluster)
       : p(clouds::prepare(clouds::joined(clouds::sphere(2000), clouds::sphere(cluster, 0.1, {0.3, 0.2, 3})))),
-        first(p.t.tetrahedra.size(), Label::unlabelled),
-        labels{Labels(p.t.tetrahedra.size(), Label::outside),
-               IndexedArray<TetrahedronIndex, float>(p.t.tetrahedra.size(), 0.05f), false} {
+        first(p.t.tetrahedra.size(), Label::unlabelled) {
+    clouds::HandMade made(p.t.tetrahedra.size(), 0.05f);
     std::vector<TetrahedronIndex> to_cluster;
     for (TetrahedronIndex i{0}; i.value < p.t.tetrahedra.size(); ++i.value) {
       if (p.t.touches_cube(i)) continue;
@@ -168,11 +165,11 @@ struct Fin {
       const auto far = std::count_if(v.begin(), v.end(), [&](SampleIndex s) { return in_cluster(s); });
       if (far == 1) to_cluster.push_back(i);
       if (far > 0) continue;
-      labels.labels[i] = Label::inside;
-      labels.value[i] = -0.05f;
+      made.set(i, Label::inside, 0.05f);
     }
+    labels = made.done();
     fin.push_back(to_cluster.at(to_cluster.size() / 2));
-    labels.labels[fin[0]] = first[fin[0]] = Label::inside; // its one pole says so
+    clouds::put(labels, fin[0], first[fin[0]] = Label::inside); // its one pole says so
   }
   [[nodiscard]] bool in_cluster(SampleIndex s) const { return (p.t.positions[s] + p.t.origin).z > 2; }
   std::uint64_t cut() {
@@ -186,10 +183,10 @@ struct Fin {
 
 TEST(Spikes, FinsToLonelyGroupsAreCut) {
   Fin fin(12);
-  ASSERT_EQ(extract_surface(fin.p.t, fin.labels.labels, Threads(1)).mesh.vertices.size(), 2001u);
+  ASSERT_EQ(extract_surface(fin.p.t, fin.labels.labels(), Threads(1)).mesh.vertices.size(), 2001u);
   EXPECT_EQ(fin.cut(), 1u);
-  EXPECT_EQ(fin.labels.labels[fin.fin[0]], Label::outside);
-  const Surface rest = extract_surface(fin.p.t, fin.labels.labels, Threads(1));
+  EXPECT_EQ(fin.labels[fin.fin[0]], Label::outside);
+  const Surface rest = extract_surface(fin.p.t, fin.labels.labels(), Threads(1));
   EXPECT_EQ(rest.mesh.vertices.size(), 2000u);
   const MeshSummary summary = validate(rest.mesh);
   EXPECT_TRUE(summary.closed() && summary.manifold());
@@ -197,9 +194,9 @@ TEST(Spikes, FinsToLonelyGroupsAreCut) {
 
 TEST(Spikes, FinsToManySamplesStay) {
   Fin fin(100);
-  const Labels before = fin.labels.labels;
+  const Labels before = fin.labels.labels();
   EXPECT_EQ(fin.cut(), 0u);
-  EXPECT_EQ(fin.labels.labels.raw(), before.raw());
+  EXPECT_EQ(fin.labels.labels().raw(), before.raw());
 }
 
 } // namespace

@@ -5,6 +5,9 @@
 
 #include "clouds.h"
 #include "parallel/threads.h"
+#include "samples/neighbourhoods.h"
+#include "surface/components.h"
+#include "surface/support.h"
 
 namespace eigencrust {
 namespace {
@@ -17,20 +20,18 @@ using Kind = KeepComponents::Kind;
 struct Hull {
   Threads threads{2};
   Prepared p;
-  FinalLabels labels;
+  TetrahedronLabels labels;
   Neighbourhoods neighbourhoods;
   Surface surface;
 
   Hull(const Points& points, float x) : p(clouds::prepare(points)) {
     const std::size_t n = p.t.tetrahedra.size();
-    labels = {Labels(n, Label::outside), IndexedArray<TetrahedronIndex, float>(n, x), false};
+    clouds::HandMade made(n, x);
     for (TetrahedronIndex i{0}; i.value < n; ++i.value)
-      if (!p.t.touches_cube(i)) {
-        labels.labels[i] = Label::inside;
-        labels.value[i] = -x;
-      }
+      if (!p.t.touches_cube(i)) made.set(i, Label::inside, x);
+    labels = made.done();
     neighbourhoods = sample_neighbourhoods(std::span(p.t.positions.raw()).first(p.t.sample_count), threads);
-    surface = extract_surface(p.t, labels.labels, Threads(2));
+    surface = extract_surface(p.t, labels.labels(), Threads(2));
   }
   std::vector<float> support(std::span<const float> grid_spacing = {}) {
     measure_support(p.t, labels, neighbourhoods, grid_spacing, surface, threads);
@@ -58,7 +59,7 @@ TEST(Support, IsFullOnEvenSamples) {
 TEST(Support, IsHalvedWithoutContrast) {
   Hull hull(clouds::sphere(500), 1);
   const std::vector<float> full = hull.support();
-  std::fill(hull.labels.value.raw().begin(), hull.labels.value.raw().end(), 0.25f); // the same on both sides
+  hull.labels = {hull.labels.labels(), IndexedArray<TetrahedronIndex, float>(hull.labels.size(), 0.0f)};
   const std::vector<float> none = hull.support();
   for (std::size_t i = 0; i < full.size(); ++i) EXPECT_FLOAT_EQ(none[i], full[i] / 2);
 }

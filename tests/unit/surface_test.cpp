@@ -33,13 +33,13 @@ TEST(Surface, OfOneTetrahedronIsItsFourFaces) {
 TEST(Surface, IsClosedAndOutwardForAnyLabels) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Prepared p = clouds::prepare(clouds::random_box(150, seed));
-    const FinalLabels labels = clouds::random_labels(p.t, 0.2 * static_cast<double>(seed) - 0.1, seed);
-    const MeshSummary summary = summary_of(extract_surface(p.t, labels.labels, Threads(2)).mesh);
+    const TetrahedronLabels labels = clouds::random_labels(p.t, 0.2 * static_cast<double>(seed) - 0.1, seed);
+    const MeshSummary summary = summary_of(extract_surface(p.t, labels.labels(), Threads(2)).mesh);
     EXPECT_TRUE(summary.closed());
     EXPECT_EQ(summary.inconsistent_edges, 0u); // as many triangles one way as the other, at every edge
     double volume = 0;
     for (std::uint32_t i = 0; i < p.t.tetrahedra.size(); ++i)
-      if (labels.labels.raw()[i] == Label::inside) volume += clouds::volume(p.t, TetrahedronIndex{i});
+      if (labels.labels().raw()[i] == Label::inside) volume += clouds::volume(p.t, TetrahedronIndex{i});
     EXPECT_NEAR(summary.volume, volume, 1e-9 * volume);
     EXPECT_EQ(summary.unreferenced_vertices, 0u);
   }

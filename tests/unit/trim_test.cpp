@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 
 #include "clouds.h"
+#include "evidence/contradictions.h"
 #include "parallel/threads.h"
+#include "samples/neighbourhoods.h"
 #include "shapes.h"
+#include "surface/trim.h"
 
 namespace eigencrust {
 namespace {

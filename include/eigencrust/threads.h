@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The threads that a stage may use.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+
+namespace eigencrust {
+
+/// A fixed team of worker threads. Not to be entered from one of its own blocks.
+class Threads {
+ public:
+  /// \param count number of threads including the caller's; 0: one per core
+  explicit Threads(unsigned count = 0);
+  ~Threads();
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+
+  [[nodiscard]] unsigned size() const;
+
+  /// Calls work(block) once for each block in [0, blocks), in any order, from all threads. If blocks
+  /// throw, the exception of the smallest block is rethrown after all have ended.
+  template <class Work>
+  void run(std::size_t blocks, Work&& work) const {
+    using Function = std::remove_reference_t<Work>;
+    run_erased(
+        blocks, [](void* f, std::size_t block) { (*static_cast<Function*>(f))(block); },
+        const_cast<void*>(static_cast<const void*>(&work)));
+  }
+
+ private:
+  void run_erased(std::size_t blocks, void (*call)(void*, std::size_t), void* function) const;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace eigencrust

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What was invented.
+#pragma once
+
+#include <eigencrust/stages.h>
+
+#include "samples/neighbourhoods.h"
+
+namespace eigencrust {
+
+/// The triangles that the samples do not bear out (1): their support is below 1/4, or their longest edge exceeds 10
+/// times the smallest local spacing of their vertices (of isolated ones: the typical one), or no line of sight of
+/// their vertices meets their front within 85° of the normal, in a one-sided scan: none of some vertex (not in the
+/// paper; docs/decisions/0020). Expects surface.support. \param lines as sight_lines() gives them; may be empty
+std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& tetrahedralization,
+                                                const Neighbourhoods& neighbourhoods, std::span<const SightLine> lines,
+                                                bool one_sided, const Surface& surface, const Threads& threads);
+/// The share of the surface's area that is marked.
+double share_of_area(const Surface& surface, std::span<const std::uint8_t> marked);
+/// What unsupported_triangles() marked, and its share.
+struct UnsupportedTriangles {
+  std::vector<std::uint8_t> marked;
+  double share_of_area = 0;
+};
+/// Takes away the triangles marked, and then, at vertices with several fans, all but the largest fan: an oriented
+/// manifold surface stays one, with boundary.
+void trim(std::vector<std::uint8_t> unsupported, Surface& surface);
+
+} // namespace eigencrust
