@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What `cmake --install` puts where; find_package(eigencrust) then gives eigencrust::eigencrust.
+# What `cmake --install` puts where; find_package(eigencrust) then gives eigencrust::eigencrust, ::io and ::render.
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/eigencrust)
-install(TARGETS eigencrust EXPORT eigencrustTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS eigencrust eigencrust_io eigencrust_render EXPORT eigencrustTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT eigencrustTargets NAMESPACE eigencrust:: DESTINATION ${package_folder})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/eigencrustConfig.cmake.in
   ${PROJECT_BINARY_DIR}/eigencrustConfig.cmake INSTALL_DESTINATION ${package_folder})

@@ -9,10 +9,10 @@
 
 namespace eigencrust {
 
-/// A fixed team of worker threads. Not to be entered from one of its own blocks.
+/// How many threads work at the same time. Blocks may run blocks of their own.
 class Threads {
  public:
-  /// \param count number of threads including the caller's; 0: one per core
+  /// \param count number of threads including the caller's; 0: one per core. There are never more than cores
   explicit Threads(unsigned count = 0);
   ~Threads();
   Threads(const Threads&) = delete;

@@ -124,6 +124,17 @@ struct Attribute {
   }
 };
 
+/// Value of row i (not a list) as a double; 32-bit integers are exact.
+double attribute_value(const Attribute& attribute, std::size_t row);
+/// An attribute made of doubles, floats or integers; `type` decides how they are stored.
+Attribute make_attribute(std::string name, ScalarType type, std::span<const double> values);
+Attribute make_attribute(std::string name, std::span<const std::uint32_t> values);
+Attribute make_attribute(std::string name, std::span<const float> values);
+/// The rows `rows` of an attribute, in that order.
+Attribute gather(const Attribute& attribute, std::span<const std::uint32_t> rows);
+/// The attribute of that name, or null.
+const Attribute* find_attribute(const std::vector<Attribute>& attributes, std::string_view name);
+
 /// Where a scanner stood when it saw some of the points.
 struct Sensor {
   Vec3 place;               ///< position in input coordinates; at infinity the unit direction surface -> scanner

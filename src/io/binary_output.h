@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "io/scalar.h"
+#include "surface/scalar.h"
 
 namespace eigencrust::io {
 

@@ -6,8 +6,8 @@
 
 #include "io/attributes.h"
 #include "io/bytes.h"
-#include "io/scalar.h"
 #include "io/text.h"
+#include "surface/scalar.h"
 
 namespace eigencrust::io {
 namespace {

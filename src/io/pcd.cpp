@@ -12,8 +12,8 @@
 #include "io/pcd_header.h"
 #include "io/point_table.h"
 #include "io/pose.h"
-#include "io/scalar.h"
 #include "io/text.h"
+#include "surface/scalar.h"
 
 namespace eigencrust::io {
 namespace {

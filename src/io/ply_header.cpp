@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "io/ply.h"
-#include "io/scalar.h"
 #include "io/text.h"
+#include "surface/scalar.h"
 
 namespace eigencrust::io {
 namespace {

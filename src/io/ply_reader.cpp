@@ -10,8 +10,8 @@
 #include "io/formats.h"
 #include "io/ply.h"
 #include "io/polygons.h"
-#include "io/scalar.h"
 #include "io/text.h"
+#include "surface/scalar.h"
 
 namespace eigencrust::io {
 namespace {

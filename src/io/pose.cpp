@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "io/scalar.h"
+#include "surface/scalar.h"
 
 namespace eigencrust::io {
 namespace {

@@ -4,8 +4,8 @@
 #include "io/attributes.h"
 #include "io/formats.h"
 #include "io/point_table.h"
-#include "io/scalar.h"
 #include "io/text_output.h"
+#include "surface/scalar.h"
 
 namespace eigencrust::io {
 namespace {

@@ -3,7 +3,6 @@
 #include <string>
 
 #include <eigencrust/error.h>
-#include <eigencrust/io.h>
 #include <eigencrust/validate.h>
 
 #include "geometry/mesh_topology.h"

@@ -1,108 +1,100 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parallel/threads.h"
 
-#include <atomic>
-#include <condition_variable>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
 #include <exception>
 #include <limits>
 #include <mutex>
 #include <new>
+#include <stdexcept>
 #include <system_error>
 #include <thread>
-#include <utility>
+#include <vector>
+
+#include <eigencrust/error.h>
 
 namespace eigencrust {
+namespace {
 
-struct Threads::Impl {
-  // One job at a time. A job is handed out under the mutex; its blocks are taken from `next`.
-  std::mutex mutex;
-  std::condition_variable wake, done;
-  std::vector<std::thread> workers;
-  std::size_t generation = 0;
-  unsigned busy = 0;
-  bool stop = false;
-
-  void (*call)(void*, std::size_t) = nullptr;
-  void* function = nullptr;
-  std::size_t blocks = 0;
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr error;
-  std::size_t error_block = std::numeric_limits<std::size_t>::max();
-
-  void take_blocks() {
-    for (std::size_t b = next.fetch_add(1); b < blocks; b = next.fetch_add(1)) {
-      try {
-        call(function, b);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (b < error_block) {
-          error_block = b;
-          error = std::current_exception();
-        }
-      }
-    }
+/// Keeps the exception of the smallest block.
+class FirstError {
+ public:
+  void take(std::size_t block) {
+    const std::lock_guard lock(mutex_);
+    if (block >= block_) return;
+    block_ = block;
+    error_ = std::current_exception();
+  }
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
   }
 
-  void work() {
-    std::size_t seen = 0;
-    std::unique_lock lock(mutex);
-    for (;;) {
-      wake.wait(lock, [&] { return stop || generation != seen; });
-      if (stop) return;
-      seen = generation;
-      lock.unlock();
-      take_blocks();
-      lock.lock();
-      if (--busy == 0) done.notify_one();
-    }
-  }
+ private:
+  std::mutex mutex_;
+  std::exception_ptr error_;
+  std::size_t block_ = std::numeric_limits<std::size_t>::max();
 };
 
-Threads::Threads(unsigned count) : impl_(std::make_unique<Impl>()) {
-  if (count == 0) count = std::max(1u, std::thread::hardware_concurrency());
-  impl_->workers.reserve(count - 1);
+} // namespace
+
+namespace {
+
+/// How many of `wanted` threads the system gives beside this one. Asked before the library does: where it is refused
+/// one, it fails, and fewer would do as well.
+unsigned available_threads(unsigned wanted) {
+  std::vector<std::thread> team;
   try {
-    for (unsigned i = 1; i < count; ++i) impl_->workers.emplace_back([impl = impl_.get()] { impl->work(); });
+    team.reserve(wanted);
+    while (team.size() < wanted) team.emplace_back([] {});
   } catch (const std::system_error&) {
-    // The system gives no more threads. Results do not depend on their number, so fewer will do.
+    // No more of them.
   } catch (const std::bad_alloc&) {
-    // The same; and those that run already must end with this object.
+    // The same.
   }
+  for (std::thread& thread : team) thread.join();
+  return static_cast<unsigned>(team.size());
 }
 
-Threads::~Threads() {
-  {
-    const std::lock_guard lock(impl_->mutex);
-    impl_->stop = true;
-  }
-  impl_->wake.notify_all();
-  for (std::thread& worker : impl_->workers) worker.join();
-}
+} // namespace
 
-unsigned Threads::size() const { return static_cast<unsigned>(impl_->workers.size()) + 1; }
+struct Threads::Impl {
+  unsigned count;
+  unsigned running; ///< never more than cores, of which the library would complain on stderr
+  tbb::task_arena arena;
+
+  Impl(unsigned n, unsigned cores)
+      : count(n > 0 ? n : cores),
+        running(1 + available_threads(std::min(count, cores) - 1)),
+        arena(static_cast<int>(running)) {}
+};
+
+Threads::Threads(unsigned count)
+    : impl_(std::make_unique<Impl>(count, static_cast<unsigned>(tbb::info::default_concurrency()))) {}
+Threads::~Threads() = default;
+
+unsigned Threads::size() const { return impl_->count; }
 
 void Threads::run_erased(std::size_t blocks, void (*call)(void*, std::size_t), void* function) const {
-  if (impl_->workers.empty() || blocks <= 1) {
+  if (impl_->running == 1 || blocks <= 1) {
     for (std::size_t b = 0; b < blocks; ++b) call(function, b);
     return;
   }
-  Impl& job = *impl_;
-  {
-    const std::lock_guard lock(job.mutex);
-    job.call = call;
-    job.function = function;
-    job.blocks = blocks;
-    job.next = 0;
-    job.error = nullptr;
-    job.error_block = std::numeric_limits<std::size_t>::max();
-    job.busy = static_cast<unsigned>(job.workers.size());
-    ++job.generation;
-  }
-  job.wake.notify_all();
-  job.take_blocks();
-  std::unique_lock lock(job.mutex);
-  job.done.wait(lock, [&] { return job.busy == 0; });
-  if (job.error) std::rethrow_exception(std::exchange(job.error, nullptr));
+  FirstError error;
+  const auto take = [&](std::size_t block) {
+    try {
+      call(function, block);
+    } catch (...) {
+      error.take(block); // the other blocks go on: which of several exceptions is seen must not depend on time
+    }
+  };
+  // Isolated: who waits for these blocks takes no others, which may be long or use the same tables.
+  impl_->arena.execute([&] {
+    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, blocks, take, tbb::simple_partitioner()); });
+  });
+  error.rethrow();
 }
 
 } // namespace eigencrust

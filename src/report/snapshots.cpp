@@ -3,8 +3,6 @@
 
 #include <limits>
 
-#include <eigencrust/io.h>
-
 namespace eigencrust {
 namespace {
 

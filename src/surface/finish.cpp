@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <eigencrust/io.h>
-
 #include "geometry/exact_difference.h"
 #include "surface/surface.h"
 

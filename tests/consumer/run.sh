@@ -15,6 +15,11 @@ cmake -S "$here" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/installed 
   -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release
 cmake --build "$work/build"
 "$work/build/consumer" "$work/sphere.ply" "$work/sphere.png"
+"$work/build/method"
+if ldd "$work/build/method" | grep -E 'libpng|libcrypto|libpugixml|libz\.'; then
+  echo "run.sh: the method alone asks for these"
+  exit 1
+fi
 
 # The program takes the bundled scan from beside itself.
 cd "$work"

@@ -50,6 +50,19 @@ TEST(Threads, TheSmallestBlocksExceptionIsRethrownAndTheTeamGoesOn) {
   }
 }
 
+TEST(Threads, BlocksMayRunBlocksOfTheirOwn) {
+  for (const unsigned count : {1u, 2u, 4u}) {
+    const Threads threads(count);
+    std::vector<std::atomic<int>> runs(20 * 50);
+    threads.run(20,
+                [&](std::size_t outer) { threads.run(50, [&](std::size_t inner) { ++runs[50 * outer + inner]; }); });
+    for (const auto& n : runs) EXPECT_EQ(n, 1);
+    EXPECT_THROW(
+        threads.run(3, [&](std::size_t) { threads.run(3, [](std::size_t) { throw std::runtime_error("!"); }); }),
+        std::runtime_error);
+  }
+}
+
 TEST(Threads, BlocksCoverTheRangeWithoutOverlap) {
   const Threads threads(3);
   for (const std::size_t n : {0u, 1u, 9u, 10u, 11u, 95u}) {

@@ -13,7 +13,7 @@
 
 #include <eigencrust/types.h>
 
-namespace eigencrust::io {
+namespace eigencrust {
 
 /// Calls work(std::type_identity<T>{}) with the T that `type` stands for.
 template <class Work>
@@ -61,4 +61,4 @@ inline void swap_bytes(std::span<std::byte> values, std::size_t size) {
     for (std::size_t k = 0; k < size / 2; ++k) std::swap(values[begin + k], values[begin + size - 1 - k]);
 }
 
-} // namespace eigencrust::io
+} // namespace eigencrust
