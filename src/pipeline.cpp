@@ -38,7 +38,7 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   // §3: the faces between inside and outside
   auto surface = make_surface(cloud, scene, evidence, labels, context);
   // Which rows lie on it, and which way they look
-  auto points = point_results(cloud, scene, surface, context);
+  auto points = point_results(scene, surface, context);
   // §3.6: smoothing; the vertices get back what the input said of them
   auto mesh = finish(std::move(surface), cloud, scene, context);
   check(mesh, cloud, scene, {.threads = options.threads}, context);

@@ -73,7 +73,7 @@ struct Session::Kept {
 
  private:
   void keep_second_solution(const Options& unnamed, Observer& observer) {
-    const auto& [t, stars, measures, poles] = scene;
+    const auto& [t, rows, stars, measures, poles] = scene;
     PoleLabels labels = label_poles(t, stars, poles, solved.graph, solved.partition, solved.component, evidence.labels,
                                     options.global_sign, options.min_agreement, threads);
     if (options.questionable == Questionable::after)
@@ -119,7 +119,7 @@ Result Session::label(std::span<const Vec3> outside_points, std::span<const Vec3
   const auto poles = label_poles(scene, evidence, kept_->solved, first, context);
   auto labels = repair(scene, evidence, poles, settle(scene, poles, context, kept_->second), context);
   auto surface = make_surface(cloud, scene, evidence, labels, context);
-  auto points = point_results(cloud, scene, surface, context);
+  auto points = point_results(scene, surface, context);
   result.mesh = finish(std::move(surface), cloud, scene, context);
   check(result.mesh, cloud, scene, {.self_intersections = options.smooth > 0, .threads = options.threads}, context);
 

@@ -114,6 +114,7 @@ inline Points torus(double major, double minor, unsigned around, unsigned across
 /// Tetrahedralization with what most stages ask for beside it.
 struct Prepared {
   Tetrahedralization t;
+  std::vector<SampleIndex> sample_of_row;
   VertexStars stars;
   Labels known;
   Poles poles;
@@ -121,7 +122,9 @@ struct Prepared {
 inline Prepared prepare(const Points& points, unsigned threads = 1) {
   const Threads team(threads);
   Prepared p;
-  p.t = tetrahedralize(prepare_samples(points, team), team);
+  Samples samples = prepare_samples(points, team);
+  p.sample_of_row = samples.of_row;
+  p.t = tetrahedralize(std::move(samples), team);
   p.stars = vertex_stars(p.t, team);
   p.poles = find_poles(p.t, p.stars, {}, team);
   p.known = known_labels(p.t, {}, {}, {}, team);

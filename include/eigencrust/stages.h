@@ -22,6 +22,7 @@ struct Samples {
   Vec3 origin;
   IndexedArray<SampleIndex, Vec3> positions;
   IndexedArray<SampleIndex, std::uint32_t> source; ///< smallest row with these coordinates
+  std::vector<SampleIndex> of_row; ///< the sample of each row, duplicates included; invalid where it is not finite
   std::uint64_t duplicates = 0, nonfinite = 0;
   Box3 bounds; ///< input coordinates
 };
@@ -62,10 +63,12 @@ struct SightLine {
   Vec3 target;     ///< the scanner, or a place beyond all samples in its direction; relative to the origin
 };
 /// One line for each place from which a sample was seen, ordered by sample, then place; duplicates count once.
+/// \param sample_of_row as Samples has it
 /// \param depth a length per sample
 /// \param left_out samples where it is > 0 have none (may be empty)
-std::vector<SightLine> sight_lines(const PointCloud& cloud, const Tetrahedralization& tetrahedralization,
-                                   std::span<const float> depth, std::span<const float> left_out);
+std::vector<SightLine> sight_lines(const PointCloud& cloud, std::span<const SampleIndex> sample_of_row,
+                                   const Tetrahedralization& tetrahedralization, std::span<const float> depth,
+                                   std::span<const float> left_out);
 
 /// The tetrahedra that each line crosses, in their order along it (compressed rows).
 struct SightCrossings {

@@ -28,9 +28,9 @@ std::vector<float> crossing_depths(const std::vector<float>& grid_spacing, const
 
 LinesOfSight follow_lines(const PointCloud& cloud, const Scene& scene, const Labels& named, const Options& options,
                           const Threads& threads) {
-  const auto& [t, stars, measures, poles] = scene;
+  const auto& [t, rows, stars, measures, poles] = scene;
   const auto depth = crossing_depths(measures.grid, options, measures.around.nearest, t.sample_count);
-  const auto lines = sight_lines(cloud, t, depth, measures.isolated);
+  const auto lines = sight_lines(cloud, rows, t, depth, measures.isolated);
   LinesOfSight sight;
   if (options.detect_facade) sight.one_sided = one_sided_scan(t, lines);
   sight.crossings = sight_crossings(t, stars, lines, options.weights, named, threads);

@@ -9,8 +9,7 @@
 #include <eigencrust/stages.h>
 
 #include "evidence/contradictions.h"
-#include "parallel/threads.h"
-#include "samples/rows.h"
+#include "parallel/compressed_rows.h"
 #include "tetrahedra/segment_walk.h"
 
 namespace eigencrust {
@@ -97,11 +96,11 @@ Box3 wide_box(const Tetrahedralization& t) {
 
 } // namespace
 
-std::vector<SightLine> sight_lines(const PointCloud& cloud, const Tetrahedralization& t, std::span<const float> depth,
+std::vector<SightLine> sight_lines(const PointCloud& cloud, std::span<const SampleIndex> sample_of,
+                                   const Tetrahedralization& t, std::span<const float> depth,
                                    std::span<const float> left_out) {
   std::vector<SightLine> lines;
   if (cloud.sensor_of.empty()) return lines;
-  const std::vector<SampleIndex> sample_of = samples_of_rows(cloud, t);
   const Box3 box = wide_box(t);
   for (std::size_t row = 0; row < sample_of.size(); ++row) {
     const SampleIndex s = sample_of[row];
@@ -136,29 +135,17 @@ std::optional<OneSided> one_sided_scan(const Tetrahedralization& t, std::span<co
 
 SightCrossings sight_crossings(const Tetrahedralization& t, const VertexStars& stars, std::span<const SightLine> lines,
                                Weights weights, const Labels& known, const Threads& threads) {
-  SightCrossings result;
-  result.begin.assign(lines.size() + 1, 0);
-  std::vector<std::vector<TetrahedronIndex>> blocks((lines.size() + lines_per_block - 1) / lines_per_block);
-  for_blocks(threads, lines.size(), lines_per_block, [&](std::size_t begin, std::size_t end, std::size_t b) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t before = blocks[b].size();
+  auto rows = build_rows<TetrahedronIndex>(threads, lines.size(), lines_per_block, [&] {
+    return [&](std::size_t i, std::vector<TetrahedronIndex>& crossed) {
       SegmentWalk walk(t, stars, lines[i].sample, lines[i].target);
       const Ray ray(t, lines[i]);
       while (walk.next())
         if (walk.depth() > static_cast<double>(lines[i].depth) && known[walk.tetrahedron()] != Label::outside &&
             (weights == Weights::paper || ray.is_clear(walk)))
-          blocks[b].push_back(walk.tetrahedron());
-      result.begin[i + 1] = blocks[b].size() - before;
-    }
+          crossed.push_back(walk.tetrahedron());
+    };
   });
-  for (std::size_t i = 0; i < lines.size(); ++i) result.begin[i + 1] += result.begin[i];
-  result.tetrahedra.resize(result.begin.back());
-  threads.run(blocks.size(), [&](std::size_t b) {
-    const auto at = static_cast<std::ptrdiff_t>(result.begin[b * lines_per_block]);
-    std::copy(blocks[b].begin(), blocks[b].end(), result.tetrahedra.begin() + at);
-    blocks[b] = {};
-  });
-  return result;
+  return {std::move(rows.begin), std::move(rows.item)};
 }
 
 SightLabels line_of_sight(const Tetrahedralization& t, const VertexStars& stars, std::span<const SightLine> lines,

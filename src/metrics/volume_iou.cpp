@@ -8,7 +8,7 @@
 #include <eigencrust/metrics.h>
 
 #include "geometry/mesh_topology.h"
-#include "parallel/threads.h"
+#include "parallel/compressed_rows.h"
 
 namespace eigencrust {
 namespace {
@@ -97,31 +97,22 @@ bool integrate(std::vector<Crossing>& column, double& both, double& either) {
   return winding[0] == 0 && winding[1] == 0;
 }
 
-/// Triangles of both meshes by the rows of columns they may cross.
-struct Rows {
-  struct Item {
-    std::uint32_t triangle, mesh;
-  };
-  std::vector<std::size_t> begin;
-  std::vector<Item> items;
-
-  Rows(const std::array<const TriangleMesh*, 2>& meshes, const Columns& columns) : begin(columns.count + 1, 0) {
-    const auto for_each_entry = [&](auto&& visit) {
-      for (std::uint32_t m = 0; m < 2; ++m)
-        for (std::uint32_t t = 0; t < meshes[m]->triangles.size(); ++t) {
-          Box3 box;
-          for (const std::uint32_t v : meshes[m]->triangles[t]) box.add(meshes[m]->vertices[v]);
-          const auto [from, to] = Columns::range(box.min.y, box.max.y, columns.y0, columns.dy, columns.count);
-          for (std::uint32_t j = from; j <= to; ++j) visit(j, Item{t, m});
-        }
-    };
-    for_each_entry([&](std::uint32_t j, const Item&) { ++begin[j + 1]; });
-    for (std::size_t j = 0; j < columns.count; ++j) begin[j + 1] += begin[j];
-    items.resize(begin.back());
-    std::vector<std::size_t> place(begin.begin(), begin.end() - 1);
-    for_each_entry([&](std::uint32_t j, const Item& item) { items[place[j]++] = item; });
-  }
+struct MeshTriangle {
+  std::uint32_t triangle, mesh;
 };
+
+/// Triangles of both meshes by the rows of columns they may cross.
+CompressedRows<MeshTriangle> rows_of(const std::array<const TriangleMesh*, 2>& meshes, const Columns& columns) {
+  return build_rows<MeshTriangle>(columns.count, [&](auto&& visit) {
+    for (std::uint32_t m = 0; m < 2; ++m)
+      for (std::uint32_t t = 0; t < meshes[m]->triangles.size(); ++t) {
+        Box3 box;
+        for (const std::uint32_t v : meshes[m]->triangles[t]) box.add(meshes[m]->vertices[v]);
+        const auto [from, to] = Columns::range(box.min.y, box.max.y, columns.y0, columns.dy, columns.count);
+        for (std::uint32_t j = from; j <= to; ++j) visit(j, MeshTriangle{t, m});
+      }
+  });
+}
 
 /// Box of the vertices in use. \throws Error{input}
 Box3 checked_bounds(const std::array<const TriangleMesh*, 2>& meshes) {
@@ -151,7 +142,7 @@ double volume_iou(const TriangleMesh& a, const TriangleMesh& b, std::uint32_t co
   const Columns grid{box.min.x, box.min.y, (box.max.x - box.min.x) / columns, (box.max.y - box.min.y) / columns,
                      columns};
   if (!(grid.dx > 0) || !(grid.dy > 0)) return 0; // flat: nothing inside
-  const Rows rows(meshes, grid);
+  const auto rows = rows_of(meshes, grid);
 
   struct Sum {
     double both = 0, either = 0;
@@ -165,10 +156,10 @@ double volume_iou(const TriangleMesh& a, const TriangleMesh& b, std::uint32_t co
         std::vector<std::vector<Crossing>> row(columns);
         for (std::size_t j = begin; j < end; ++j) {
           for (auto& column : row) column.clear();
-          for (std::size_t k = rows.begin[j]; k < rows.begin[j + 1]; ++k) {
-            const TriangleMesh& mesh = *meshes[rows.items[k].mesh];
-            const Triangle& t = mesh.triangles[rows.items[k].triangle];
-            cross_triangle({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}, rows.items[k].mesh, grid,
+          for (const MeshTriangle& entry : rows[j]) {
+            const TriangleMesh& mesh = *meshes[entry.mesh];
+            const Triangle& t = mesh.triangles[entry.triangle];
+            cross_triangle({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}, entry.mesh, grid,
                            static_cast<std::uint32_t>(j), row);
           }
           for (auto& column : row)

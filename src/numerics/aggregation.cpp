@@ -83,8 +83,7 @@ class EntriesOfAggregates {
   [[nodiscard]] std::uint32_t size() const { return a_.count; }
   [[nodiscard]] double diagonal(std::uint32_t g) const {
     double sum = 0;
-    for (std::uint32_t k = a_.begin[g]; k < a_.begin[g + 1]; ++k) {
-      const std::uint32_t i = a_.member[k];
+    for (const std::uint32_t i : a_.members[g]) {
       sum += m_.diagonal[i];
       for (std::uint64_t e = m_.row_begin[i]; e < m_.row_begin[i + 1]; ++e)
         if (a_.aggregate[m_.column[e]] == g) sum += signed_entry(m_, a_, i, e);
@@ -101,8 +100,7 @@ class EntriesOfAggregates {
         : m_(entries.m_), a_(entries.a_), begin_(begin), end_(end), sums_(end - begin) {}
     template <class Visit>
     void operator()(std::uint32_t g, const Visit& visit) {
-      for (std::uint32_t k = a_.begin[g]; k < a_.begin[g + 1]; ++k) {
-        const std::uint32_t i = a_.member[k];
+      for (const std::uint32_t i : a_.members[g]) {
         for (std::uint64_t e = m_.row_begin[i]; e < m_.row_begin[i + 1]; ++e) {
           const std::uint32_t column = a_.aggregate[m_.column[e]];
           if (column != g && column >= begin_ && column < end_) sums_.add(column - begin_, signed_entry(m_, a_, i, e));
@@ -247,14 +245,10 @@ class Matching {
 };
 
 void list_members(Aggregation& a) {
-  a.begin.assign(a.count + 1, 0);
-  for (const std::uint32_t g : a.aggregate)
-    if (g != none) ++a.begin[g + 1];
-  for (std::uint32_t g = 0; g < a.count; ++g) a.begin[g + 1] += a.begin[g];
-  a.member.resize(a.begin[a.count]);
-  std::vector<std::uint32_t> cursor(a.begin.begin(), a.begin.end() - 1);
-  for (std::uint32_t i = 0; i < a.aggregate.size(); ++i)
-    if (a.aggregate[i] != none) a.member[cursor[a.aggregate[i]]++] = i;
+  a.members = build_rows<std::uint32_t>(a.count, [&](auto&& visit) {
+    for (std::uint32_t i = 0; i < a.aggregate.size(); ++i)
+      if (a.aggregate[i] != none) visit(a.aggregate[i], i);
+  });
 }
 
 struct RowBlock {
@@ -268,8 +262,7 @@ void galerkin_block(const BorderedMatrix& m, const Aggregation& a, std::size_t f
   RowSums sums(a.count);
   for (std::size_t g = first; g < last; ++g) {
     double self = 0;
-    for (std::uint32_t k = a.begin[g]; k < a.begin[g + 1]; ++k) {
-      const std::uint32_t i = a.member[k];
+    for (const std::uint32_t i : a.members[g]) {
       self += m.diagonal[i];
       for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1]; ++e) {
         const std::uint32_t column = a.aggregate[m.column[e]];
@@ -322,8 +315,7 @@ BorderedMatrix galerkin(const BorderedMatrix& matrix, const Aggregation& a, cons
     std::vector<float> sums(a.count);
     for_each_index(threads, a.count, [&](std::size_t g) {
       double sum = 0;
-      for (std::uint32_t k = a.begin[g]; k < a.begin[g + 1]; ++k)
-        sum += static_cast<double>(border[a.member[k]]) * a.sign[a.member[k]];
+      for (const std::uint32_t i : a.members[g]) sum += static_cast<double>(border[i]) * a.sign[i];
       sums[g] = static_cast<float>(sum);
     });
     coarse.border.push_back(std::move(sums));

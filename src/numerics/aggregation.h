@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "numerics/bordered_matrix.h"
+#include "parallel/compressed_rows.h"
 
 namespace eigencrust {
 
 struct Aggregation {
   std::uint32_t count = 0;
-  std::vector<std::uint32_t> aggregate; ///< 0xffffffff: no interior neighbour, ends here
-  std::vector<std::int8_t> sign;        ///< +1 or -1: moves with or against its aggregate
-  /// Members of aggregate g, increasing: member[begin[g]] … member[begin[g + 1] - 1].
-  std::vector<std::uint32_t> begin, member;
+  std::vector<std::uint32_t> aggregate;  ///< 0xffffffff: no interior neighbour, ends here
+  std::vector<std::int8_t> sign;         ///< +1 or -1: moves with or against its aggregate
+  CompressedRows<std::uint32_t> members; ///< of each aggregate, increasing
 };
 
 /// Pᵀ M P and its P.

@@ -137,7 +137,7 @@ SignedMultigrid::SignedMultigrid(BorderedMatrix matrix, Vector mass, const Threa
     if (!fine.mass.empty()) {
       coarse.mass.assign(a.count + k, 0);
       for_each_index(threads, a.count, [&](std::size_t g) {
-        for (std::uint32_t m = a.begin[g]; m < a.begin[g + 1]; ++m) coarse.mass[g] += fine.mass[a.member[m]];
+        for (const std::uint32_t i : a.members[g]) coarse.mass[g] += fine.mass[i];
       });
       for (std::uint32_t s = 0; s < k; ++s) coarse.mass[a.count + s] = fine.mass[n + s];
     }
@@ -192,10 +192,7 @@ void SignedMultigrid::restrict_residual(std::size_t level, const B& b, const Flo
   });
   for_each_index(threads, a.count, [&](std::size_t g) {
     float sum = 0;
-    for (std::uint32_t k = a.begin[g]; k < a.begin[g + 1]; ++k) {
-      const std::uint32_t i = a.member[k];
-      sum += a.sign[i] > 0 ? r[i] : -r[i];
-    }
+    for (const std::uint32_t i : a.members[g]) sum += a.sign[i] > 0 ? r[i] : -r[i];
     coarse[g] = sum;
   });
   const std::size_t n = m.interior_size();

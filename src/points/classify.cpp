@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which samples belong to the surface (not in the paper; docs/decisions/0014).
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,8 +8,10 @@
 
 #include <eigencrust/stages.h>
 
+#include "geometry/local_pca.h"
 #include "geometry/nearest.h"
 #include "geometry/nearest_on_triangle.h"
+#include "numerics/quantile.h"
 #include "parallel/threads.h"
 #include "points/classify.h"
 #include "surface/fans.h"
@@ -37,12 +38,6 @@ constexpr std::size_t vertices_searched = 12;
 constexpr double few_implausible = 0.01;
 // The nearest vertex may be that much farther than the surface: the middle of a hole's lid is no evidence.
 constexpr double reach_of_a_vertex = 3;
-
-double middle_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// What each vertex of the surface says of itself.
 class Vertices {
@@ -116,7 +111,7 @@ class Vertices {
       around.push_back(edge_[wing.next]);
       centre = centre + at(wing.next);
     }
-    spacing_[v] = middle_of(around);
+    spacing_[v] = quantile(around, 0.5);
     const double aside = distance(at(v), (1.0 / static_cast<double>(around.size())) * centre);
     const double excess = edge_[v] * edge_[v] - spacing_[v] * spacing_[v];
     // Where the spacing changes along the surface only one of the two is large, at a spike both.
@@ -125,7 +120,7 @@ class Vertices {
 
   void drop_scattered(std::vector<std::uint8_t>& fine) const {
     std::vector<double> edges = edge_;
-    const double limit = isolation * middle_of(edges);
+    const double limit = isolation * quantile(edges, 0.5);
     std::vector<std::uint32_t> isolated;
     for (std::uint32_t v = 0; v < edge_.size(); ++v)
       if (edge_[v] > limit) isolated.push_back(v);
@@ -138,20 +133,9 @@ class Vertices {
     std::array<std::uint32_t, neighbourhood + 1> index{};
     std::array<double, neighbourhood + 1> square{};
     const std::size_t found = tree_.nearest(at(v), index.size(), index.data(), square.data());
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-    for (std::size_t k = 0; k < found; ++k) {
-      const Vec3 d = at(index[k]) - at(v);
-      const Eigen::Vector3d e(d.x, d.y, d.z);
-      mean += e;
-      moments += e * e.transpose();
-    }
-    const double n = static_cast<double>(found);
-    mean /= n;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments / n - mean * mean.transpose());
-    const double off = mean.dot(solver.eigenvectors().col(0));
-    const double thickness = std::max(0.0, solver.eigenvalues()[0]) + off * off;
-    return thickness > scattered_ratio * scattered_ratio * std::max(0.0, solver.eigenvalues()[1]);
+    const LocalPca pca = local_pca(surface_.mesh.vertices, std::span(index).first(found), at(v));
+    const double off = dot(pca.mean, pca.normal);
+    return pca.variance.x + off * off > scattered_ratio * scattered_ratio * pca.variance.y;
   }
 
   const Surface& surface_;

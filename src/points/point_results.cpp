@@ -4,18 +4,16 @@
 #include <limits>
 
 #include "points/orient.h"
-#include "samples/rows.h"
 
 namespace eigencrust {
 namespace {
 
-PointResults results_by_row(const PointCloud& cloud, const Scene& scene, const Surface& surface,
-                            const Threads& threads) {
+PointResults results_by_row(const Scene& scene, const Surface& surface, const Threads& threads) {
   const Tetrahedralization& t = scene.tetrahedralization;
   const std::vector<float>& grid = scene.measures.grid;
   const Classification classes = classify_samples(t, surface, grid, threads);
   const IndexedArray<SampleIndex, Vec3> normals = orient_samples(t, surface, classes, grid, threads);
-  const std::vector<SampleIndex> sample = samples_of_rows(cloud, t);
+  const std::vector<SampleIndex>& sample = scene.sample_of_row;
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   PointResults result;
   result.inlier.assign(sample.size(), 0);
@@ -32,10 +30,9 @@ PointResults results_by_row(const PointCloud& cloud, const Scene& scene, const S
 
 } // namespace
 
-PointResults point_results(const PointCloud& cloud, const Scene& scene, const Surface& surface,
-                           const Context& context) {
+PointResults point_results(const Scene& scene, const Surface& surface, const Context& context) {
   if (!context.options.point_results) return {};
-  return context.run.stage("points", [&] { return results_by_row(cloud, scene, surface, context.threads); });
+  return context.run.stage("points", [&] { return results_by_row(scene, surface, context.threads); });
 }
 
 } // namespace eigencrust

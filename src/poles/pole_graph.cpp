@@ -6,7 +6,7 @@
 #include <eigencrust/stages.h>
 
 #include "geometry/distinct_numbers.h"
-#include "parallel/threads.h"
+#include "parallel/compressed_rows.h"
 #include "poles/pole_weights.h"
 
 namespace eigencrust {
@@ -16,57 +16,28 @@ constexpr std::uint32_t no_node = NodeIndex::none;
 constexpr std::uint32_t outside_node = no_node - 1; ///< collapsed into the outside supernode
 constexpr std::uint32_t inside_node = no_node - 2;
 
-/// Compressed lists of 32-bit numbers.
-struct Lists {
-  std::vector<std::uint64_t> begin;
-  std::vector<std::uint32_t> item;
-  std::span<const std::uint32_t> operator[](std::size_t i) const {
-    return {item.data() + begin[i], item.data() + begin[i + 1]};
-  }
-};
+using Lists = CompressedRows<std::uint32_t>;
 
 /// Delaunay neighbours of every sample, without cube corners.
 Lists sample_neighbours(const Tetrahedralization& t, const VertexStars& stars, const Threads& threads) {
-  Lists lists;
-  lists.begin.assign(t.sample_count + 1, 0);
-  const std::size_t block = block_with_table(t.sample_count);
-  std::vector<std::vector<std::uint32_t>> blocks((t.sample_count + block - 1) / block);
-  for_blocks(threads, t.sample_count, block, [&](std::size_t first, std::size_t last, std::size_t b) {
-    DistinctNumbers distinct(t.sample_count);
-    for (std::size_t s = first; s < last; ++s) {
+  return build_rows<std::uint32_t>(threads, t.sample_count, block_with_table(t.sample_count), [&] {
+    return [&, distinct = DistinctNumbers(t.sample_count)](std::size_t s, std::vector<std::uint32_t>& row) mutable {
       distinct.clear();
       for (const TetrahedronIndex tetrahedron : stars[SampleIndex{static_cast<std::uint32_t>(s)}])
         for (const SampleIndex v : t.tetrahedra[tetrahedron])
           if (v.value != s && !t.is_corner(v)) distinct.add(v.value);
-      const std::vector<std::uint32_t>& around = distinct.numbers();
-      lists.begin[s + 1] = around.size();
-      blocks[b].insert(blocks[b].end(), around.begin(), around.end());
-    }
+      row.insert(row.end(), distinct.numbers().begin(), distinct.numbers().end());
+    };
   });
-  for (std::size_t s = 0; s < t.sample_count; ++s) lists.begin[s + 1] += lists.begin[s];
-  lists.item.resize(lists.begin.back());
-  threads.run(blocks.size(), [&](std::size_t b) {
-    std::copy(blocks[b].begin(), blocks[b].end(),
-              lists.item.begin() + static_cast<std::ptrdiff_t>(lists.begin[b * block]));
-    blocks[b] = {};
-  });
-  return lists;
 }
 
 /// Samples that chose each pole, increasing.
 Lists samples_of_poles(const Poles& poles) {
-  Lists lists;
-  lists.begin.assign(poles.tetrahedron.size() + 1, 0);
-  for (const PolePair& pair : poles.of_sample)
-    for (const PoleIndex p : {pair.first, pair.second})
-      if (p.valid()) ++lists.begin[p.value + 1];
-  for (std::size_t p = 0; p < poles.tetrahedron.size(); ++p) lists.begin[p + 1] += lists.begin[p];
-  lists.item.resize(lists.begin.back());
-  std::vector<std::uint64_t> cursor(lists.begin.begin(), lists.begin.end() - 1);
-  for (std::uint32_t s = 0; s < poles.of_sample.size(); ++s)
-    for (const PoleIndex p : {poles.of_sample.raw()[s].first, poles.of_sample.raw()[s].second})
-      if (p.valid()) lists.item[cursor[p.value]++] = s;
-  return lists;
+  return build_rows<std::uint32_t>(poles.tetrahedron.size(), [&](auto&& visit) {
+    for (std::uint32_t s = 0; s < poles.of_sample.size(); ++s)
+      for (const PoleIndex p : {poles.of_sample.raw()[s].first, poles.of_sample.raw()[s].second})
+        if (p.valid()) visit(p.value, s);
+  });
 }
 
 /// How much an isolated sample's pole pair counts: only as far as its Voronoi cell is long compared with its

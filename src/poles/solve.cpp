@@ -7,7 +7,7 @@ namespace eigencrust {
 
 PoleSolution solve_poles(const Scene& scene, const Evidence& evidence, const Context& context) {
   const auto& [options, run, threads] = context;
-  const auto& [t, stars, measures, poles] = scene;
+  const auto& [t, rows, stars, measures, poles] = scene;
   PoleSolution solved;
   solved.questionable =
       run.stage("questionable", [&] { return questionable_tetrahedra(t, measures.grid, threads); }); // §3.3
@@ -25,7 +25,7 @@ PoleSolution solve_poles(const Scene& scene, const Evidence& evidence, const Con
 PoleLabels label_poles(const Scene& scene, const Evidence& evidence, const PoleSolution& solved,
                        const Partition& partition, const Context& context) {
   const auto& [options, run, threads] = context;
-  const auto& [t, stars, measures, poles] = scene;
+  const auto& [t, rows, stars, measures, poles] = scene;
   PoleLabels result = run.stage("label_poles", [&] {
     return label_poles(t, stars, poles, solved.graph, partition, solved.component, evidence.labels, options.global_sign,
                        options.min_agreement, threads);

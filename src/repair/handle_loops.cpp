@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "repair/handle_loops.h"
+#include "parallel/compressed_rows.h"
 
 #include <algorithm>
 #include <numeric>
@@ -31,17 +32,12 @@ struct Forest {
 };
 
 Forest breadth_first(const std::vector<Edge>& edges, std::size_t vertices) {
-  std::vector<std::uint32_t> begin(vertices + 1, 0), neighbour(2 * edges.size());
-  for (const Edge& e : edges) {
-    ++begin[e.low + 1];
-    ++begin[e.high + 1];
-  }
-  for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
-  std::vector<std::uint32_t> place(begin.begin(), begin.end() - 1);
-  for (const Edge& e : edges) {
-    neighbour[place[e.low]++] = e.high;
-    neighbour[place[e.high]++] = e.low;
-  }
+  const auto neighbours = build_rows<std::uint32_t>(vertices, [&](auto&& visit) {
+    for (const Edge& e : edges) {
+      visit(e.low, e.high);
+      visit(e.high, e.low);
+    }
+  });
   Forest forest{std::vector<std::uint32_t>(vertices, none), std::vector<std::uint32_t>(vertices, none), 0, 0};
   std::vector<std::uint32_t> queue;
   queue.reserve(vertices);
@@ -49,11 +45,10 @@ Forest breadth_first(const std::vector<Edge>& edges, std::size_t vertices) {
     if (forest.depth[root] != none) continue;
     forest.depth[root] = 0;
     ++forest.trees;
-    forest.isolated += begin[root] == begin[root + 1];
+    forest.isolated += neighbours[root].empty();
     queue.assign(1, root);
     for (std::size_t i = 0; i < queue.size(); ++i)
-      for (std::uint32_t k = begin[queue[i]]; k < begin[queue[i] + 1]; ++k) {
-        const std::uint32_t v = neighbour[k];
+      for (const std::uint32_t v : neighbours[queue[i]]) {
         if (forest.depth[v] != none) continue;
         forest.depth[v] = forest.depth[queue[i]] + 1;
         forest.parent[v] = queue[i];

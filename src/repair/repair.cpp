@@ -9,7 +9,7 @@ namespace eigencrust {
 TetrahedronLabels repair(const Scene& scene, const Evidence& evidence, const PoleLabels& first,
                          TetrahedronLabels labels, const Context& context) {
   const auto& [options, run, threads] = context;
-  const auto& [t, stars, measures, poles] = scene;
+  const auto& [t, rows, stars, measures, poles] = scene;
   const Labels& named = evidence.named;
   const ManifoldRule rule = options.manifold_rule;
   if (options.manifold)

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "evidence/evidence.h"
+#include "numerics/quantile.h"
 #include "points/point_results.h"
 #include "repair/handles.h"
 #include "repair/recover.h"
@@ -19,13 +20,9 @@ namespace {
 
 void describe_noise(std::vector<float> grid_spacing, Run& run) {
   if (grid_spacing.empty()) return;
-  for (const auto& [name, share] : {std::pair{"grid_spacing_q10", 0.1}, std::pair{"grid_spacing_median", 0.5},
-                                    std::pair{"grid_spacing_q90", 0.9}}) {
-    const auto at =
-        grid_spacing.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(grid_spacing.size() - 1));
-    std::nth_element(grid_spacing.begin(), at, grid_spacing.end());
-    run.count("noise", name, static_cast<double>(*at));
-  }
+  for (const auto& [name, share] :
+       {std::pair{"grid_spacing_q10", 0.1}, std::pair{"grid_spacing_median", 0.5}, std::pair{"grid_spacing_q90", 0.9}})
+    run.count("noise", name, static_cast<double>(quantile(grid_spacing, share)));
 }
 
 /// What the options promise and the mesh is not.

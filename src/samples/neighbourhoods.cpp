@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which samples may be outliers, and how far their neighbourhood reaches (not in the paper;
 // docs/decisions/0013).
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <eigencrust/stages.h>
 
+#include "geometry/local_pca.h"
 #include "geometry/nearest.h"
+#include "numerics/quantile.h"
 #include "parallel/threads.h"
 #include "samples/neighbourhoods.h"
 
@@ -39,27 +40,9 @@ std::vector<float> third_nearest(const PointTree& tree, std::span<const Vec3> po
   return third;
 }
 
-template <class T>
-T median(std::vector<T> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 bool is_flat(std::span<const Vec3> positions, std::span<const std::uint32_t> neighbours, const Vec3& origin) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  for (const std::uint32_t j : neighbours) {
-    const Vec3 d = positions[j] - origin; // relative to the sample, so that nothing cancels
-    const Eigen::Vector3d e(d.x, d.y, d.z);
-    sum += e;
-    moments += e * e.transpose();
-  }
-  const double n = static_cast<double>(neighbours.size());
-  const Eigen::Vector3d variance = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
-                                       moments / n - sum * sum.transpose() / (n * n), Eigen::EigenvaluesOnly)
-                                       .eigenvalues();
-  return variance[0] < flat_ratio * flat_ratio * variance[1];
+  const Vec3 variance = local_pca(positions, neighbours, origin).variance;
+  return variance.x < flat_ratio * flat_ratio * variance.y;
 }
 
 } // namespace
@@ -69,8 +52,9 @@ Neighbourhoods sample_neighbourhoods(std::span<const Vec3> positions, const Thre
   Neighbourhoods result;
   std::vector<double> nearest;
   result.spacing = third_nearest(tree, positions, nearest, threads);
-  result.nearest = median(std::move(nearest));
-  result.typical = static_cast<double>(median(result.spacing));
+  result.nearest = median(nearest);
+  std::vector<float> sorted = result.spacing;
+  result.typical = static_cast<double>(median(sorted));
   const double limit = isolation * result.typical;
   result.isolated.assign(positions.size(), 0.0f);
   for_each_index(

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How noisy the samples are, from the samples alone (not in the paper; docs/decisions/0012).
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include <eigencrust/stages.h>
 
+#include "geometry/local_pca.h"
 #include "geometry/nearest.h"
+#include "numerics/quantile.h"
 #include "parallel/threads.h"
 #include "samples/noise_scale.h"
 
@@ -32,21 +33,8 @@ struct Spread {
 };
 
 Spread spread_of(std::span<const Vec3> positions, std::span<const std::uint32_t> neighbours, const Vec3& origin) {
-  Vec3 mean;
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  for (const std::uint32_t j : neighbours) {
-    const Vec3 d = positions[j] - origin; // relative to the query, so that nothing cancels
-    mean = mean + d;
-    const Eigen::Vector3d e(d.x, d.y, d.z);
-    moments += e * e.transpose();
-  }
-  const double n = static_cast<double>(neighbours.size());
-  const Eigen::Vector3d m(mean.x / n, mean.y / n, mean.z / n);
-  const Eigen::Vector3d variance =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments / n - m * m.transpose(), Eigen::EigenvaluesOnly)
-          .eigenvalues()
-          .cwiseMax(0.0);
-  return {std::sqrt(variance[0]), std::sqrt(variance[1]), variance[1] + variance[2]};
+  const Vec3 variance = local_pca(positions, neighbours, origin).variance;
+  return {std::sqrt(variance.x), std::sqrt(variance.y), variance.y + variance.z};
 }
 
 /// Thickness that does not grow with the neighbourhood is noise. Two neighbourhoods, the first one flat,
@@ -83,12 +71,6 @@ double noise_at(const PointTree& tree, std::span<const Vec3> positions, const Ve
   return 0;
 }
 
-double quantile(std::vector<double> values, double q) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 } // namespace
 
 IndexedArray<SampleIndex, float> noise_scale(const Samples& samples, std::span<const float> isolated,
@@ -119,7 +101,8 @@ IndexedArray<SampleIndex, float> noise_scale(const Samples& samples, std::span<c
         raw[e] = noise_at(tree, positions, places[e]);
       },
       32);
-  const double typical = quantile(raw, 0.5);
+  std::vector<double> sorted = raw;
+  const double typical = quantile(sorted, 0.5);
   // The upper quartile over neighbouring places: curved spots, where nothing is told from curvature, must
   // not read as free of noise, and outliers must not set the scale.
   const PointTree coarse(places);
@@ -131,7 +114,7 @@ IndexedArray<SampleIndex, float> noise_scale(const Samples& samples, std::span<c
         const std::size_t found = coarse.nearest(places[e], smoothing_neighbours, index.data(), square.data());
         std::vector<double> around;
         for (std::size_t k = 0; k < found; ++k) around.push_back(raw[index[k]]);
-        smooth[e] = std::max(typical, quantile(std::move(around), smoothing_quantile));
+        smooth[e] = std::max(typical, quantile(around, smoothing_quantile));
       },
       256);
   for_each_index(threads, scale.size(), [&](std::size_t i) {

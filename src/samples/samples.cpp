@@ -8,6 +8,7 @@
 #include "geometry/exact_difference.h"
 #include "geometry/nearest.h"
 #include "geometry/spatial_order.h"
+#include "numerics/quantile.h"
 #include "parallel/threads.h"
 
 namespace eigencrust {
@@ -80,13 +81,15 @@ Samples prepare_samples(std::span<const Vec3> points, const Threads& threads) {
   // Rows with equal coordinates follow one another; the first has the smallest row.
   samples.positions.raw().reserve(finite + 8);
   samples.source.raw().reserve(finite);
+  samples.of_row.resize(points.size());
   for (const Keyed& k : keyed) {
     if (!samples.positions.empty() && samples.positions.raw().back() == k.position) {
       ++samples.duplicates;
-      continue;
+    } else {
+      samples.positions.raw().push_back(k.position);
+      samples.source.raw().push_back(k.row);
     }
-    samples.positions.raw().push_back(k.position);
-    samples.source.raw().push_back(k.row);
+    samples.of_row[k.row] = SampleIndex{samples.positions.size() - 1};
   }
   if (samples.positions.size() < 5)
     throw Error(ErrorKind::input, "samples",
@@ -119,9 +122,7 @@ double median_spacing(const Samples& samples, std::span<const Vec3> points, std:
     }
   }
   if (nearest.empty()) return 0;
-  const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
-  std::nth_element(nearest.begin(), middle, nearest.end());
-  return *middle;
+  return median(nearest);
 }
 
 double resolve_grid_spacing(const GridSpacing& option, const Samples& samples, std::span<const Vec3> points,

@@ -6,6 +6,7 @@
 #include <eigencrust/stages.h>
 
 #include "geometry/nearest.h"
+#include "numerics/quantile.h"
 #include "parallel/threads.h"
 #include "settle/centring.h"
 
@@ -126,13 +127,8 @@ class Centring {
       for (auto [i, last] = samples_of(r); i < last; ++i)
         if (isolated_.empty() || !(isolated_[i] > 0)) values.push_back(value_[i]);
     if (values.size() < least_samples) return {};
-    const auto quantile = [&](double share) {
-      const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-      std::nth_element(values.begin(), at, values.end());
-      return *at;
-    };
-    const float middle = quantile(0.5);
-    return {middle, std::max(1e-6f, (quantile(0.75) - quantile(0.25)) / 2)};
+    const float middle = quantile(values, 0.5), upper = quantile(values, 0.75), lower = quantile(values, 0.25);
+    return {middle, std::max(1e-6f, (upper - lower) / 2)};
   }
 
   void measure_levels(const PointTree& tree) {

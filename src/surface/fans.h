@@ -5,9 +5,10 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include <eigencrust/types.h>
+
+#include "parallel/compressed_rows.h"
 
 namespace eigencrust {
 
@@ -19,26 +20,19 @@ class SurfaceFans {
     std::uint32_t next, last; ///< vertex, next, last is the triangle
   };
 
-  explicit SurfaceFans(const TriangleMesh& mesh) : begin_(mesh.vertices.size() + 1, 0) {
-    for (const auto& triangle : mesh.triangles)
-      for (const std::uint32_t v : triangle) ++begin_[v + 1];
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) begin_[v + 1] += begin_[v];
-    wings_.resize(3 * mesh.triangles.size());
-    std::vector<std::uint64_t> place(begin_.begin(), begin_.end() - 1);
-    for (const auto& [a, b, c] : mesh.triangles) {
-      wings_[place[a]++] = {b, c};
-      wings_[place[b]++] = {c, a};
-      wings_[place[c]++] = {a, b};
-    }
-  }
+  explicit SurfaceFans(const TriangleMesh& mesh)
+      : wings_(build_rows<Wing>(mesh.vertices.size(), [&](auto&& visit) {
+          for (const auto& [a, b, c] : mesh.triangles) {
+            visit(a, Wing{b, c});
+            visit(b, Wing{c, a});
+            visit(c, Wing{a, b});
+          }
+        })) {}
 
-  [[nodiscard]] std::span<const Wing> operator[](std::size_t v) const {
-    return {wings_.data() + begin_[v], wings_.data() + begin_[v + 1]};
-  }
+  [[nodiscard]] std::span<const Wing> operator[](std::size_t v) const { return wings_[v]; }
 
  private:
-  std::vector<std::uint64_t> begin_;
-  std::vector<Wing> wings_;
+  CompressedRows<Wing> wings_;
 };
 
 } // namespace eigencrust

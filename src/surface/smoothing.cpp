@@ -5,7 +5,7 @@
 
 #include <eigencrust/stages.h>
 
-#include "parallel/threads.h"
+#include "parallel/compressed_rows.h"
 
 namespace eigencrust {
 namespace {
@@ -14,13 +14,9 @@ namespace {
 constexpr double taubin_lambda = 0.5;
 constexpr double taubin_mu = -1 / (1 / taubin_lambda - 0.1);
 
-/// Neighbours of every vertex (compressed rows, increasing); none for vertices of open edges, so that
-/// boundaries stay.
-struct Rings {
-  std::vector<std::uint64_t> begin;
-  std::vector<std::uint32_t> vertex;
-};
+using Rings = CompressedRows<std::uint32_t>;
 
+/// Neighbours of every vertex, increasing; none for vertices of open edges, so that boundaries stay.
 Rings rings_of(const TriangleMesh& mesh) {
   std::vector<std::array<std::uint32_t, 2>> directed;
   directed.reserve(6 * mesh.triangles.size());
@@ -38,15 +34,10 @@ Rings rings_of(const TriangleMesh& mesh) {
     i = j;
   }
   directed.erase(std::unique(directed.begin(), directed.end()), directed.end());
-  Rings rings;
-  rings.begin.assign(mesh.vertices.size() + 1, 0);
-  for (const auto& [u, v] : directed)
-    if (!open[u]) {
-      ++rings.begin[u + 1];
-      rings.vertex.push_back(v);
-    }
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) rings.begin[v + 1] += rings.begin[v];
-  return rings;
+  return build_rows<std::uint32_t>(mesh.vertices.size(), [&](auto&& visit) {
+    for (const auto& [u, v] : directed)
+      if (!open[u]) visit(u, v);
+  });
 }
 
 /// Vertices that a step moved onto one point (the tips of a bipyramid) go back to where they were: merged by
@@ -77,9 +68,9 @@ void smooth(TriangleMesh& mesh, Smoothing method, std::uint32_t steps, const Thr
   std::vector<Vec3> moved(mesh.vertices.size());
   const auto move_towards_centroids = [&](double factor) {
     for_each_index(threads, mesh.vertices.size(), [&](std::size_t v) {
-      const std::uint64_t degree = rings.begin[v + 1] - rings.begin[v];
+      const std::size_t degree = rings[v].size();
       Vec3 sum;
-      for (std::uint64_t e = rings.begin[v]; e < rings.begin[v + 1]; ++e) sum = sum + mesh.vertices[rings.vertex[e]];
+      for (const std::uint32_t u : rings[v]) sum = sum + mesh.vertices[u];
       const Vec3& old = mesh.vertices[v];
       moved[v] = degree == 0 ? old : old + factor * ((1.0 / static_cast<double>(degree)) * sum - old);
     });

@@ -25,8 +25,9 @@ void require_trimmed(const Surface& surface) {
 }
 
 /// The lines of all samples, also of isolated ones.
-std::vector<SightLine> rays_of(const PointCloud& cloud, const Tetrahedralization& t) {
-  return sight_lines(cloud, t, std::vector<float>(t.sample_count, 0), {});
+std::vector<SightLine> rays_of(const PointCloud& cloud, const Scene& scene) {
+  const Tetrahedralization& t = scene.tetrahedralization;
+  return sight_lines(cloud, scene.sample_of_row, t, std::vector<float>(t.sample_count, 0), {});
 }
 
 } // namespace
@@ -44,7 +45,7 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   require_surface(surface);
   const bool one_sided = options.facade.has_value() || evidence.one_sided.has_value();
   UnsupportedTriangles unsupported = run.stage("trim", [&] {
-    auto marked = unsupported_triangles(t, around, rays_of(cloud, t), one_sided, surface, threads);
+    auto marked = unsupported_triangles(t, around, rays_of(cloud, scene), one_sided, surface, threads);
     const double share = share_of_area(surface, marked);
     return UnsupportedTriangles{std::move(marked), share};
   });

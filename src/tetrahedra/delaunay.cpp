@@ -13,7 +13,7 @@
 #include <eigencrust/stages.h>
 
 #include "geometry/predicates.h"
-#include "parallel/threads.h"
+#include "parallel/compressed_rows.h"
 
 namespace eigencrust {
 namespace {
@@ -107,17 +107,15 @@ void copy_cells(Delaunay& delaunay, Tetrahedralization& result, const Threads& t
 std::vector<std::uint32_t> sorted_order(const Tetrahedralization& t, const Threads& threads) {
   const auto& tetrahedra = t.tetrahedra.raw();
   const std::size_t vertices = t.positions.size();
-  std::vector<std::uint32_t> begin(vertices + 1, 0);
-  for (const auto& v : tetrahedra) ++begin[v[0].value + 1];
-  for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
-  std::vector<std::uint32_t> order(tetrahedra.size());
-  std::vector<std::uint32_t> cursor(begin.begin(), begin.end() - 1);
-  for (std::uint32_t i = 0; i < tetrahedra.size(); ++i) order[cursor[tetrahedra[i][0].value]++] = i;
-  for_each_index(threads, vertices, [&](std::size_t v) {
-    std::sort(order.begin() + begin[v], order.begin() + begin[v + 1],
+  auto [begin, order] = build_rows<std::uint32_t>(vertices, [&](auto&& visit) {
+    for (std::uint32_t i = 0; i < tetrahedra.size(); ++i) visit(tetrahedra[i][0].value, i);
+  });
+  for_each_index(threads, vertices, [&, &begin = begin, &order = order](std::size_t v) {
+    const auto at = [&](std::uint64_t k) { return order.begin() + static_cast<std::ptrdiff_t>(k); };
+    std::sort(at(begin[v]), at(begin[v + 1]),
               [&](std::uint32_t a, std::uint32_t b) { return tetrahedra[a] < tetrahedra[b]; });
   });
-  return order;
+  return std::move(order);
 }
 
 /// From the engine's order, which depends on the order of insertion, to one that does not.

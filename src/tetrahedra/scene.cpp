@@ -25,9 +25,8 @@ void triangulate_and_measure(const PointCloud& cloud, Samples samples, const Con
   scene.tetrahedralization = run.stage("delaunay", [&] {
     Samples copy = samples;
     return tetrahedralize(std::move(copy), threads, [&] {
-      const Threads others(threads.size() - 1);
-      neighbourhoods = seconds_of([&] { measure_neighbourhoods(samples, options, others, measures); });
-      noise = seconds_of([&] { measure_noise(cloud, samples, options, others, measures); });
+      neighbourhoods = seconds_of([&] { measure_neighbourhoods(samples, options, threads, measures); });
+      noise = seconds_of([&] { measure_noise(cloud, samples, options, threads, measures); });
     });
   });
   run.add("neighbourhoods", neighbourhoods);
@@ -40,6 +39,7 @@ Scene make_scene(const PointCloud& cloud, const Context& context) {
   const auto& [options, run, threads] = context;
   Scene scene;
   Samples samples = run.stage("samples", [&] { return prepare_samples(cloud.points, threads); });
+  scene.sample_of_row = std::move(samples.of_row);
   triangulate_and_measure(cloud, std::move(samples), context, scene);
   describe(scene.measures, run);
   const Tetrahedralization& t = scene.tetrahedralization;

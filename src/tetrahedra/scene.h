@@ -12,6 +12,7 @@ namespace eigencrust {
 
 struct Scene {
   Tetrahedralization tetrahedralization;
+  std::vector<SampleIndex> sample_of_row; ///< of each row of the cloud, see Samples
   VertexStars stars;
   SampleMeasures measures;
   Poles poles;

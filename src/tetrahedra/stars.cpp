@@ -2,20 +2,16 @@
 // Which tetrahedra there are around each sample.
 #include <eigencrust/stages.h>
 
+#include "parallel/compressed_rows.h"
+
 namespace eigencrust {
 
 VertexStars vertex_stars(const Tetrahedralization& t, const Threads&) {
-  VertexStars stars;
-  stars.begin.assign(t.positions.size() + 1, 0);
-  for (const auto& tetrahedron : t.tetrahedra)
-    for (const SampleIndex s : tetrahedron) ++stars.begin[s.value + 1];
-  for (std::size_t s = 0; s < t.positions.size(); ++s) stars.begin[s + 1] += stars.begin[s];
-  stars.tetrahedra.resize(stars.begin.back());
-  std::vector<std::uint64_t> cursor(stars.begin.begin(), stars.begin.end() - 1);
-  for (std::uint32_t i = 0; i < t.tetrahedra.size(); ++i)
-    for (const SampleIndex s : t.tetrahedra[TetrahedronIndex{i}])
-      stars.tetrahedra[cursor[s.value]++] = TetrahedronIndex{i};
-  return stars;
+  auto rows = build_rows<TetrahedronIndex>(t.positions.size(), [&](auto&& visit) {
+    for (TetrahedronIndex i{0}; i.value < t.tetrahedra.size(); ++i.value)
+      for (const SampleIndex s : t.tetrahedra[i]) visit(s.value, i);
+  });
+  return {std::move(rows.begin), std::move(rows.item)};
 }
 
 } // namespace eigencrust

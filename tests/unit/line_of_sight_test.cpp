@@ -41,7 +41,7 @@ TEST(SightLines, EndAtTheSensorOrBeyondTheSamples) {
   cloud.sensor_of[7] = 0;
   cloud.sensor_of[8] = 1;
   cloud.sensor_of[9] = 2;
-  const auto lines = sight_lines(cloud, p.t, depths(p, 0.25f), {});
+  const auto lines = sight_lines(cloud, p.sample_of_row, p.t, depths(p, 0.25f), {});
   ASSERT_EQ(lines.size(), 3u);
   for (const SightLine& line : lines) {
     EXPECT_EQ(line.depth, 0.25f);
@@ -69,20 +69,20 @@ TEST(SightLines, DuplicatesCountOncePerSensorAndIsolatedSamplesNot) {
   cloud.sensors = {{{3, 0, 0}, false}, {{0, 3, 0}, false}};
   cloud.sensor_of.assign(points.size(), 0);
   cloud.sensor_of[20] = 1;
-  EXPECT_EQ(sight_lines(cloud, p.t, depths(p, 0), {}).size(), 21u);
+  EXPECT_EQ(sight_lines(cloud, p.sample_of_row, p.t, depths(p, 0), {}).size(), 21u);
   std::vector<float> isolated(p.t.sample_count, 0.0f);
   for (std::uint32_t s = 0; s < p.t.sample_count; ++s)
     if (p.t.source.raw()[s] == 4) isolated[s] = 1;
-  EXPECT_EQ(sight_lines(cloud, p.t, depths(p, 0), isolated).size(), 19u);
+  EXPECT_EQ(sight_lines(cloud, p.sample_of_row, p.t, depths(p, 0), isolated).size(), 19u);
   cloud.sensor_of.clear();
-  EXPECT_TRUE(sight_lines(cloud, p.t, depths(p, 0), {}).empty());
+  EXPECT_TRUE(sight_lines(cloud, p.sample_of_row, p.t, depths(p, 0), {}).empty());
 }
 
 TEST(SightCrossings, BeginBeyondTheDepthAndStayAwayFromSamples) {
   const Points points = sheet_and_roof();
   const Prepared p = clouds::prepare(points);
   const PointCloud cloud = seen_from(points, {{5.5, 5.5, 30}, false}, sheet_rows);
-  const auto lines = sight_lines(cloud, p.t, depths(p, 1.5f), {});
+  const auto lines = sight_lines(cloud, p.sample_of_row, p.t, depths(p, 1.5f), {});
   ASSERT_EQ(lines.size(), sheet_rows);
   const SightCrossings all = sight_crossings(p.t, p.stars, lines, Weights::paper, p.known, Threads(1));
   const SightCrossings clear = sight_crossings(p.t, p.stars, lines, Weights::evidence, p.known, Threads(1));
@@ -118,7 +118,7 @@ TEST(LineOfSight, OutsideIsWhatEnoughLinesCross) {
   const Points points = sheet_and_roof();
   const Prepared p = clouds::prepare(points);
   const PointCloud cloud = seen_from(points, {{5.5, 5.5, 30}, false}, sheet_rows);
-  const auto lines = sight_lines(cloud, p.t, depths(p, 1.5f), {});
+  const auto lines = sight_lines(cloud, p.sample_of_row, p.t, depths(p, 1.5f), {});
   const SightCrossings crossings = sight_crossings(p.t, p.stars, lines, Weights::paper, p.known, Threads(1));
   std::vector<std::uint32_t> crossed(p.t.tetrahedra.size(), 0);
   for (const TetrahedronIndex i : crossings.tetrahedra) ++crossed[i.value];
@@ -136,7 +136,7 @@ TEST(LineOfSight, WhatTheUserNamedStands) {
   const Points points = sheet_and_roof();
   const Prepared p = clouds::prepare(points);
   const PointCloud cloud = seen_from(points, {{30, 5.5, 15}, false}, sheet_rows);
-  const auto lines = sight_lines(cloud, p.t, depths(p, 0.1f), {});
+  const auto lines = sight_lines(cloud, p.sample_of_row, p.t, depths(p, 0.1f), {});
   Points named_inside;
   for (const double x : {4.5, 5.5, 6.5})
     for (const double y : {4.5, 5.5, 6.5}) named_inside.push_back({x, y, 2.5});
@@ -175,7 +175,7 @@ PointCloud ball_with_liars() {
 TEST(LineOfSight, LinesThroughWhatManySawFromTheirSideAreNotBelieved) {
   const PointCloud cloud = ball_with_liars();
   const Prepared p = clouds::prepare(cloud.points);
-  const auto lines = sight_lines(cloud, p.t, depths(p, 0.15f), {});
+  const auto lines = sight_lines(cloud, p.sample_of_row, p.t, depths(p, 0.15f), {});
   const auto wrong = [&](Weights weights, SightLabels& sight) {
     const SightCrossings crossings = sight_crossings(p.t, p.stars, lines, weights, p.known, Threads(1));
     sight = line_of_sight(p.t, p.stars, lines, crossings, {2, 0, weights}, p.known, Threads(1));
@@ -195,7 +195,7 @@ TEST(LineOfSight, LinesThroughWhatManySawFromTheirSideAreNotBelieved) {
 TEST(LineOfSight, InsideIsWhatManySamplesLieInFrontOf) {
   const PointCloud cloud = ball_with_liars();
   const Prepared p = clouds::prepare(cloud.points);
-  const auto lines = sight_lines(cloud, p.t, depths(p, 0.15f), {});
+  const auto lines = sight_lines(cloud, p.sample_of_row, p.t, depths(p, 0.15f), {});
   const SightCrossings crossings = sight_crossings(p.t, p.stars, lines, Weights::evidence, p.known, Threads(1));
   const auto inside = [&](std::uint32_t behind_count) {
     const Labels labels =
@@ -219,7 +219,7 @@ TEST(LineOfSight, IsTheSameForAnyNumberOfThreads) {
   cloud.sensors = {{{8, 8, 40}, false}, {{0, 0, 1}, true}, {{-30, 8, 4}, false}};
   for (std::size_t i = 0; i < points.size(); ++i) cloud.sensor_of.push_back(static_cast<std::uint32_t>(i % 3));
   const Prepared p = clouds::prepare(points);
-  const auto lines = sight_lines(cloud, p.t, depths(p, 0.5f), {});
+  const auto lines = sight_lines(cloud, p.sample_of_row, p.t, depths(p, 0.5f), {});
   const auto run = [&](unsigned threads) {
     const Threads team(threads);
     const SightCrossings crossings = sight_crossings(p.t, p.stars, lines, Weights::evidence, p.known, team);
