@@ -18,6 +18,7 @@ struct Truth {
   std::uint32_t components = 1;             ///< of the surface
   std::int64_t genus = 0;                   ///< sum over the components
   std::function<bool(const Vec3&)> inside;  ///< null unless it is known by formula
+  double area = 0;                          ///< of the surface; 0: not known
 };
 
 /// Radius of the bumpy sphere in the direction of the unit vector u:

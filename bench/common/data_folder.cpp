@@ -8,10 +8,18 @@
 
 namespace eigencrust::bench {
 
-std::string default_data_folder() {
-  const char* folder = std::getenv("EIGENCRUST_DATA");
-  return folder != nullptr && *folder != '\0' ? folder : EIGENCRUST_SOURCE_DIR "/../shared/data";
+namespace {
+
+std::string folder_of(const char* variable, const char* otherwise) {
+  const char* folder = std::getenv(variable);
+  return folder != nullptr && *folder != '\0' ? folder : otherwise;
 }
+
+} // namespace
+
+std::string default_data_folder() { return folder_of("EIGENCRUST_DATA", EIGENCRUST_SOURCE_DIR "/../shared/data"); }
+
+std::string default_field_folder() { return folder_of("EIGENCRUST_FIELD", EIGENCRUST_SOURCE_DIR "/../shared/field"); }
 
 void write_text(const std::string& path, const std::string& text) {
   if (!path.empty()) write_file_atomically(path, [&](std::ostream& out) { out << text; });

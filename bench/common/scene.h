@@ -3,7 +3,10 @@
 /// A cloud with what is known of it.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include <eigencrust/types.h>
 
@@ -19,6 +22,10 @@ struct Scene {
   /// Median distance of a true sample to its nearest other one, before any noise.
   double spacing = 0;
   Truth truth;
+  /// Rows that follow each other along a sharp edge of the body; empty: it has none, or they were not sampled.
+  std::vector<std::array<std::uint32_t, 2>> sharp_edges{};
+  /// Rows [begin, end) of bodies without noise beside others that have some.
+  std::vector<std::array<std::size_t, 2>> clean_rows{};
 };
 
 } // namespace eigencrust::bench

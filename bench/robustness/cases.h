@@ -19,11 +19,16 @@ namespace eigencrust::bench {
 
 struct Case {
   std::string group, name, description;
-  std::vector<std::string> files; ///< of the data folder; without them the case is skipped
-  bool large = false;             ///< 100,000 points or more: left out by --quick
+  /// Without them the case is skipped; "field/NAME" is NAME in the folder of field data, others are of the data
+  /// folder.
+  std::vector<std::string> files;
+  bool large = false; ///< 100,000 points or more: left out by --quick
   std::uint64_t seed = 1;
   std::function<Scene(Sources&, std::uint64_t seed)> make;
   std::vector<Requirement> requirements; ///< none: the figures are for information
+  /// Where the method may say why it cannot: an error whose text holds this word will do instead of the
+  /// requirements, and so will a warning, if at least a hundredth of the samples is in the surface.
+  std::string excuse;
   /// Figures beyond measure(); may be null.
   std::function<void(const Scene&, const Result&, Sources&, Figures&)> measure_more;
   RenderOptions view; ///< for a picture of the result
@@ -48,13 +53,15 @@ Scene clean_scene(std::vector<Vec3> samples, Truth truth, unsigned threads);
 /// How the meshes of the data folder are looked at.
 RenderOptions view_of(const std::string& file);
 
-void add_outlier_cases(std::vector<Case>& cases); ///< vertices of clean meshes among outliers
-void add_bumpy_cases(std::vector<Case>& cases);   ///< noise and outliers where the truth is a formula
-void add_missing_cases(std::vector<Case>& cases); ///< caps cut off
-void add_body_cases(std::vector<Case>& cases);    ///< two bodies, a cavity, a thin sheet
-void add_density_cases(std::vector<Case>& cases); ///< samples close here, far apart there
-void add_noise_cases(std::vector<Case>& cases);   ///< noise alone, in all directions and along the rays
-void add_bunny_cases(std::vector<Case>& cases);   ///< the raw bunny, with more noise and scans moved apart
-void add_raw_cases(std::vector<Case>& cases);     ///< other raw scans
+void add_outlier_cases(std::vector<Case>& cases);    ///< vertices of clean meshes among outliers
+void add_bumpy_cases(std::vector<Case>& cases);      ///< noise and outliers where the truth is a formula
+void add_missing_cases(std::vector<Case>& cases);    ///< caps cut off
+void add_body_cases(std::vector<Case>& cases);       ///< two bodies, a cavity, a thin sheet
+void add_density_cases(std::vector<Case>& cases);    ///< samples close here, far apart there
+void add_noise_cases(std::vector<Case>& cases);      ///< noise alone, in all directions and along the rays
+void add_bunny_cases(std::vector<Case>& cases);      ///< the raw bunny, with more noise and scans moved apart
+void add_raw_cases(std::vector<Case>& cases);        ///< other raw scans
+void add_field_cases(std::vector<Case>& cases);      ///< parts, thin walls and what else people bring
+void add_real_field_cases(std::vector<Case>& cases); ///< the same with files of theirs
 
 } // namespace eigencrust::bench

@@ -29,6 +29,7 @@ Json json_of(const Run& run) {
   Json json{{"preset", to_string(run.preset)},
             {"met", run.good()},
             {"missed", run.missed},
+            {"excused", run.excused},
             {"error", run.error.empty() ? Json() : Json(run.error)},
             {"figures", std::move(figures)},
             {"seconds", run.report.seconds},

@@ -28,7 +28,7 @@ constexpr const char* about =
     "  eigencrust-robustness --preset robust --preset paper --cases outliers/,torus-cut --json robustness.json";
 
 struct Settings {
-  std::string data, json, table, meshes, pictures;
+  std::string data, field, json, table, meshes, pictures;
   std::vector<std::string> patterns, presets;
   bool list = false, quick = false;
   unsigned threads = 0;
@@ -54,7 +54,10 @@ void tell(std::size_t number, std::size_t count, const Outcome& outcome, const R
             << std::fixed << std::setprecision(1) << run.report.seconds << " s): ";
   if (!run.error.empty()) std::cerr << "error: " << run.error;
   for (const std::string& m : run.missed) std::cerr << (&m == &run.missed.front() ? "missed: " : ", ") << m;
-  if (run.good()) std::cerr << (outcome.item.requirements.empty() ? "no requirement" : "met");
+  if (!run.excused.empty())
+    std::cerr << "excused: " << run.excused;
+  else if (run.good())
+    std::cerr << (outcome.item.requirements.empty() ? "no requirement" : "met");
   std::cerr << std::endl;
 }
 
@@ -72,7 +75,7 @@ void run(const Settings& s, const std::vector<std::string>& command) {
   for (const std::string& pattern : s.patterns)
     selection.append(selection.empty() ? "--cases " : " --cases ").append(pattern);
 
-  Sources sources(s.data, s.threads);
+  Sources sources(s.data, s.threads, s.field);
   std::vector<Outcome> outcomes;
   for (const Case& c : cases) {
     outcomes.push_back(run_case(c, sources, options, [&](const Outcome& outcome, const Run& done) {
@@ -93,9 +96,12 @@ void run(const Settings& s, const std::vector<std::string>& command) {
 int main(int argc, char** argv) {
   Settings s;
   s.data = default_data_folder();
+  s.field = default_field_folder();
   CLI::App app(about, "eigencrust-robustness");
   app.add_option("--data", s.data, "Folder of the real data; cases whose files are not there are skipped")
       ->default_str("$EIGENCRUST_DATA or ../shared/data");
+  app.add_option("--field", s.field, "Folder of the field data, likewise")
+      ->default_str("$EIGENCRUST_FIELD or ../shared/field");
   app.add_option("--cases", s.patterns, "Cases whose group/name contains this text; several, or a comma list")
       ->allow_extra_args(false);
   app.add_flag("--quick", s.quick, "Only cases under 100,000 points");

@@ -51,6 +51,14 @@ class FarFrom {
   double widest_;
 };
 
+/// The column of input rows. \throws Error{guarantee} without it
+const Attribute& source_of(const TriangleMesh& mesh) {
+  const Attribute* source = find_attribute(mesh.vertex_attributes, "source_index");
+  if (source == nullptr)
+    throw Error(ErrorKind::guarantee, "robustness", "the mesh lacks source_index", "mend reconstruct()");
+  return *source;
+}
+
 } // namespace
 
 void measure_topology(const Scene& scene, const Result& result, Figures& figures) {
@@ -68,14 +76,12 @@ void measure_topology(const Scene& scene, const Result& result, Figures& figures
 void measure_kept(const Scene& scene, const Result& result, Figures& figures) {
   if (scene.true_samples == 0) return;
   const auto is_true = [&](double row) { return row < static_cast<double>(scene.true_samples); };
-  const Attribute* source = find_attribute(result.mesh.vertex_attributes, "source_index");
-  if (source == nullptr)
-    throw Error(ErrorKind::guarantee, "robustness", "the mesh lacks source_index", "mend reconstruct()");
+  const Attribute& source = source_of(result.mesh);
   double kept = 0, distinct = 0;
-  for (std::size_t v = 0; v < source->rows(); ++v) kept += is_true(attribute_value(*source, v));
+  for (std::size_t v = 0; v < source.rows(); ++v) kept += is_true(attribute_value(source, v));
   for (const std::uint32_t row : result.tetrahedralization.source) distinct += is_true(row);
   figures.set("true_samples_kept", kept / distinct);
-  figures.set("outliers_kept", 1 - kept / static_cast<double>(source->rows()));
+  figures.set("outliers_kept", 1 - kept / static_cast<double>(source.rows()));
 }
 
 void measure_distances(const Scene& scene, const Result& result, unsigned threads, Figures& figures) {
@@ -102,6 +108,44 @@ void measure_distances(const Scene& scene, const Result& result, unsigned thread
 void measure_volume(const Scene& scene, const Result& result, Figures& figures) {
   if (!(scene.truth.volume > 0)) return;
   figures.set("volume_error", std::fabs(result.report.mesh.volume / scene.truth.volume - 1));
+}
+
+void measure_area(const Scene& scene, const Result& result, Figures& figures) {
+  figures.set("area", result.report.mesh.area);
+  if (scene.truth.area > 0) figures.set("area_error", std::fabs(result.report.mesh.area / scene.truth.area - 1));
+}
+
+void measure_sharp_edges(const Scene& scene, const Result& result, Figures& figures) {
+  if (scene.sharp_edges.empty()) return;
+  const Attribute& source = source_of(result.mesh);
+  const auto row = [&](std::uint32_t v) { return static_cast<std::uint32_t>(attribute_value(source, v)); };
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const auto& t : result.mesh.triangles)
+    for (int k = 0; k < 3; ++k) edges.push_back(std::minmax({row(t[k]), row(t[(k + 1) % 3])}));
+  std::sort(edges.begin(), edges.end());
+  double there = 0, all = 0;
+  for (const auto& [a, b] : scene.sharp_edges) {
+    const double length = distance(scene.cloud.points[a], scene.cloud.points[b]);
+    all += length;
+    if (std::binary_search(edges.begin(), edges.end(), std::pair(std::minmax({a, b})))) there += length;
+  }
+  figures.set("sharp_edges_kept", there / all);
+}
+
+void measure_clean_rows(const Scene& scene, const Result& result, Figures& figures) {
+  if (scene.clean_rows.empty()) return;
+  const Attribute& source = source_of(result.mesh);
+  double least = 1;
+  for (const auto& [begin, end] : scene.clean_rows) {
+    double kept = 0, distinct = 0;
+    const auto is_in = [b = begin, e = end](double row) {
+      return static_cast<double>(b) <= row && row < static_cast<double>(e);
+    };
+    for (std::size_t v = 0; v < source.rows(); ++v) kept += is_in(attribute_value(source, v));
+    for (const std::uint32_t row : result.tetrahedralization.source) distinct += is_in(row);
+    least = std::min(least, kept / distinct);
+  }
+  figures.set("clean_rows_kept", least);
 }
 
 void measure_deep_tetrahedra(const Scene& scene, const Result& result, unsigned threads, Figures& figures) {
@@ -131,6 +175,9 @@ void measure(const Scene& scene, const Result& result, unsigned threads, Figures
   measure_kept(scene, result, figures);
   measure_distances(scene, result, threads, figures);
   measure_volume(scene, result, figures);
+  measure_area(scene, result, figures);
+  measure_sharp_edges(scene, result, figures);
+  measure_clean_rows(scene, result, figures);
   measure_deep_tetrahedra(scene, result, threads, figures);
 }
 

@@ -27,6 +27,16 @@ void measure_distances(const Scene& scene, const Result& result, unsigned thread
 /// volume_error: |V - truth| / truth.
 void measure_volume(const Scene& scene, const Result& result, Figures& figures);
 
+/// area; area_error: |A - truth| / truth.
+void measure_area(const Scene& scene, const Result& result, Figures& figures);
+
+/// sharp_edges_kept: share of the length of the body's sharp edges that edges of the mesh run along.
+void measure_sharp_edges(const Scene& scene, const Result& result, Figures& figures);
+
+/// clean_rows_kept: share of the distinct samples of the clean bodies that are vertices of the surface; of the
+/// worst body.
+void measure_clean_rows(const Scene& scene, const Result& result, Figures& figures);
+
 /// Of the tetrahedra whose circumcentre lies inside the cloud's bounding box and more than 3 spacings from
 /// the true surface: deep_tetrahedra, how many; wrong_deep_tetrahedra, how many have the wrong label;
 /// wrong_deep_share. Only where inside is known by formula.

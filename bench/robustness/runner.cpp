@@ -55,6 +55,17 @@ void run_preset(const Case& item, const Scene& scene, Sources& sources, const Ru
   keep(item, run, result.mesh, options);
 }
 
+/// Sets run.excused where the requirements are missed and the method says why.
+void excuse(const Case& item, Run& run) {
+  const auto says_why = [&](const std::string& text) { return text.find(item.excuse) != std::string::npos; };
+  if (item.excuse.empty() || run.good()) return;
+  if (says_why(run.error)) run.excused = run.error;
+  if (!run.error.empty() || run.figures.find("true_samples_kept").value_or(0) < 0.01) return;
+  const auto& warnings = run.report.warnings;
+  const auto found = std::find_if(warnings.begin(), warnings.end(), says_why);
+  if (found != warnings.end()) run.excused = *found;
+}
+
 } // namespace
 
 double Run::stage_seconds(const std::string& stage) const {
@@ -91,6 +102,7 @@ Outcome run_case(const Case& item, Sources& sources, const RunnerOptions& option
     run.preset = preset;
     run.error = no_scene;
     if (no_scene.empty()) run.error = error_of([&] { run_preset(item, scene, sources, options, run); });
+    excuse(item, run);
     progress(outcome, run);
     outcome.runs.push_back(std::move(run));
   }

@@ -22,8 +22,9 @@ struct Run {
   Figures figures;
   std::vector<std::string> missed; ///< requirements that are not met; empty: all are
   std::string error;               ///< what was thrown; empty: nothing
+  std::string excused;             ///< the words that did instead of the requirements; empty: none were needed
 
-  [[nodiscard]] bool good() const { return error.empty() && missed.empty(); }
+  [[nodiscard]] bool good() const { return !excused.empty() || (error.empty() && missed.empty()); }
   /// Seconds of that stage; 0 when it was not run.
   [[nodiscard]] double stage_seconds(const std::string& stage) const;
   /// Seconds of the whole run per second of its Delaunay stage, a figure that hardly depends on the machine.

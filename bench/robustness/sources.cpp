@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sources.h"
 
+#include <string_view>
+
 #include <eigencrust/eigencrust.h>
 #include <eigencrust/io.h>
 
@@ -15,6 +17,11 @@ const typename Map::mapped_type& cached(Map& map, const std::string& name, Make&
 }
 
 } // namespace
+
+std::filesystem::path Sources::path(const std::string& file) const {
+  constexpr std::string_view prefix = "field/";
+  return file.starts_with(prefix) ? field_ / file.substr(prefix.size()) : folder_ / file;
+}
 
 bool Sources::has(const std::string& file) const { return std::filesystem::is_regular_file(path(file)); }
 

@@ -16,11 +16,13 @@ namespace eigencrust::bench {
 
 class Sources {
  public:
-  Sources(std::filesystem::path folder, unsigned threads) : folder_(std::move(folder)), threads_(threads) {}
+  /// \param field folder of the files whose name begins with "field/"
+  Sources(std::filesystem::path folder, unsigned threads, std::filesystem::path field = {})
+      : folder_(std::move(folder)), field_(std::move(field)), threads_(threads) {}
 
   [[nodiscard]] unsigned threads() const { return threads_; }
   [[nodiscard]] bool has(const std::string& file) const;
-  [[nodiscard]] std::filesystem::path path(const std::string& file) const { return folder_ / file; }
+  [[nodiscard]] std::filesystem::path path(const std::string& file) const;
 
   /// A closed mesh with what is known of it. \throws Error{input}
   const Truth& truth(const std::string& file);
@@ -30,7 +32,7 @@ class Sources {
   const Truth& reference(const std::string& file);
 
  private:
-  std::filesystem::path folder_;
+  std::filesystem::path folder_, field_;
   unsigned threads_;
   std::map<std::string, Truth> truths_, references_;
   std::map<std::string, std::vector<Vec3>> points_;

@@ -11,14 +11,15 @@ namespace {
 struct GroupText {
   const char *group, *title;
 };
-constexpr std::array<GroupText, 8> groups{{{"outliers", "Vertices of clean meshes among outliers"},
+constexpr std::array<GroupText, 9> groups{{{"outliers", "Vertices of clean meshes among outliers"},
                                            {"bumpy", "Noise and outliers around a surface known by formula"},
                                            {"bunny", "The raw bunny, more noise, displaced scans"},
                                            {"raw", "Other raw scans"},
                                            {"missing", "Caps cut off"},
                                            {"bodies", "Two bodies, a cavity, a thin sheet"},
                                            {"density", "Uneven density"},
-                                           {"noise", "Noise alone"}}};
+                                           {"noise", "Noise alone"},
+                                           {"field", "Parts, thin walls and what else people bring"}}};
 
 /// A column that shows one figure of each run.
 struct Column {
@@ -35,7 +36,7 @@ constexpr std::array<Column, 9> columns{{{"components", "components", 1},
                                          {"volume %", "volume_error", 100},
                                          {"wrong deep", "wrong_deep_tetrahedra", 1}}};
 /// Figures of single cases, named in the last column but one.
-constexpr std::array<const char*, 12> further{"patch_area",
+constexpr std::array<const char*, 20> further{"patch_area",
                                               "patch_q95_of_diagonal",
                                               "within_tolerance_of_reference",
                                               "reference_within_tolerance",
@@ -46,7 +47,15 @@ constexpr std::array<const char*, 12> further{"patch_area",
                                               "model_max",
                                               "model_from_q99",
                                               "model_from_max",
-                                              "wrong_deep_share"};
+                                              "wrong_deep_share",
+                                              "area_error",
+                                              "sharp_edges_kept",
+                                              "clean_rows_kept",
+                                              "flat_caps",
+                                              "volume_iou",
+                                              "faces_scanner",
+                                              "warns_of_noise",
+                                              "warns_of_filling"};
 
 /// Appends `part` to a list.
 void join(std::string& list, const char* separator, const std::string& part) {
@@ -76,6 +85,7 @@ std::string three_digits(double value) {
 }
 
 std::string verdict(const Outcome& outcome, const Run& run) {
+  if (!run.excused.empty()) return "excused: " + run.excused;
   if (!run.error.empty()) return "error: " + run.error;
   if (run.missed.empty()) return outcome.item.requirements.empty() ? "none set" : "met";
   std::string text;
@@ -128,6 +138,7 @@ std::string row_of(const Outcome& outcome) {
 std::string requirements_of(const Outcome& outcome) {
   std::string text;
   for (const Requirement& r : outcome.item.requirements) join(text, ", ", describe(r));
+  if (!outcome.item.excuse.empty()) text += "; or words on why not (" + outcome.item.excuse + ")";
   return text.empty() ? "none set" : text;
 }
 
