@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Exact minimum s-t cuts of graphs whose nodes have at most four neighbours, as tetrahedra that share faces have.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "parallel/threads.h"
+
+namespace eigencrust {
+
+/// An s-t cut problem on nodes with at most four neighbours each. Capacities are whole numbers so that the cut is
+/// exact. An edge stands with both its nodes; two nodes may share several edges; an edge from a node to itself does
+/// not matter.
+struct CutProblem {
+  std::vector<std::array<std::uint32_t, 4>> neighbour; ///< of each node; CutProblem::none where there is none
+  std::vector<std::array<std::int32_t, 4>> capacity; ///< of the edge to each neighbour, >= 0; the same from both sides
+  std::vector<std::int64_t> terminal; ///< > 0: capacity from the source (outside); < 0: to the sink (inside); net
+  static constexpr std::uint32_t none = 0xffffffffu;
+};
+
+enum class CutSide : std::uint8_t { source, sink, either };
+
+/// The sides of a minimum cut. Nodes that every minimum cut puts on the source's side are `source`, on the sink's side
+/// `sink`, those that minimum cuts disagree on are `either`. This is unique: it does not depend on the order of
+/// augmentations nor on threads. Both `source` alone and `source` with `either` are the source's side of a minimum cut.
+struct CutResult {
+  std::vector<CutSide> side;
+  std::int64_t flow = 0;      ///< the value of the minimum cuts
+  std::uint64_t clusters = 0; ///< connected components of nodes and edges with capacity, single nodes included
+  std::uint32_t largest = 0;  ///< nodes of the largest of them
+};
+
+/// Near linear in time where most nodes have a terminal of the right sign. Needs 72 bytes per node beside the problem
+/// and the result, and 4 per cluster. Where neighbour, capacity and terminal disagree in length or an edge is not the
+/// same from both its nodes:
+/// \throws std::invalid_argument
+CutResult minimum_cut(const CutProblem& problem, const Threads& threads);
+
+} // namespace eigencrust
