@@ -12,14 +12,6 @@ std::string defaults(const std::string& robust, const std::string& paper) {
   return robust == paper ? " [" + robust + "]" : " [" + robust + "; paper: " + paper + "]";
 }
 
-/// --NAME and --no-NAME; neither leaves the preset's choice.
-void add_switch(CLI::App& app, const std::string& name, std::optional<bool>& value, const std::string& meaning) {
-  app.add_flag_callback(
-      "--" + name, [&value] { value = true; }, meaning);
-  app.add_flag_callback(
-      "--no-" + name, [&value] { value = false; }, "Do not");
-}
-
 } // namespace
 
 void add_method_options(CLI::App& app, Request& r) {
@@ -27,37 +19,24 @@ void add_method_options(CLI::App& app, Request& r) {
   app.add_option("--preset", r.preset,
                  "robust: the measured best; paper: Kolluri, Shewchuk, O'Brien 2004 to the letter")
       ->capture_default_str();
+  app.add_option("--noise", r.noise,
+                 "Standard deviation of the noise: auto (measured at the samples), off, a length, N%" +
+                     defaults(to_string(robust.noise), to_string(paper.noise)));
   app.add_option("--grid-spacing", r.grid_spacing,
                  "Diagonal of the scanner's grid squares: auto, off, a length, N%" +
                      defaults(to_string(robust.grid_spacing), to_string(paper.grid_spacing)));
   app.add_option("--questionable", r.questionable,
                  "Tetrahedra under 4 grid spacings lose their say before or after the first partition, or never" +
                      defaults(to_string(robust.questionable), to_string(paper.questionable)));
-  add_switch(app, "local-noise", r.local_noise,
-             "Where the grid spacing is automatic: take it from the noise measured at each sample [on; paper: off]");
-  add_switch(app, "centring", r.centring,
-             "Where noise exceeds the spacing: put the surface in the middle of the samples [on; paper: off]");
-  add_switch(app, "close-handles", r.close_handles,
-             "Close handles of the size of the noise that no pole vouches for [on; paper: off]");
   app.add_option("--weights", r.weights,
                  "Pole pairs: evidence (isolated samples, which may be outliers, count little) or paper (all count)" +
                      defaults(to_string(robust.weights), to_string(paper.weights)));
   app.add_option("--second-stage", r.second_stage,
-                 "How unlabelled tetrahedra are settled: harmonic or eigenvector" +
+                 "How all tetrahedra are settled: cut, or as the paper does: harmonic, eigenvector" +
                      defaults(to_string(robust.second_stage), to_string(paper.second_stage)));
   app.add_option("--eigensolver", r.eigensolver,
                  "multigrid or lanczos (the slow reference)" +
                      defaults(to_string(robust.solver.eigensolver), to_string(paper.solver.eigensolver)));
-  app.add_option("--min-agreement", r.min_agreement,
-                 "A pole whose neighbours agree less than this on its side waits for the second stage; 0 to 1" +
-                     defaults(rounded(robust.min_agreement), rounded(paper.min_agreement)));
-  app.add_option("--pole-ties", r.pole_ties,
-                 "Weight of the ties between unlabelled tetrahedra and their samples' poles" +
-                     defaults(rounded(robust.pole_ties), rounded(paper.pole_ties)));
-  app.add_option(
-      "--recover-share", r.recover_share,
-      "Samples that the surface passes by closely are taken in if they are at most this share of it; 0 to 1" +
-          defaults(rounded(robust.recover_share), rounded(paper.recover_share)));
   app.add_option("--tolerance", r.tolerance,
                  "Residual at which an eigenvector counts as converged; given, signs alone do not stop it");
   app.add_option("--max-steps", r.max_steps,
@@ -77,13 +56,6 @@ void add_method_options(CLI::App& app, Request& r) {
                  "Where sensors are known: a line of sight crosses what it enters farther than this from its sample; "
                  "auto or a length" +
                      defaults("auto", "auto"));
-  app.add_option("--crossing-count", r.crossing_count,
-                 "Lines of sight that must cross a tetrahedron to make it outside" +
-                     defaults(std::to_string(robust.crossing_count), std::to_string(paper.crossing_count)));
-  app.add_option("--behind-count", r.behind_count,
-                 "Samples that must lie right in front of a tetrahedron that no line crosses to make it inside; 0: "
-                 "never" +
-                     defaults(std::to_string(robust.behind_count), std::to_string(paper.behind_count)));
   app.add_option(
       "--facade", r.facade,
       "One-sided scan: auto (found from the sensors), off, or outside in front along +x -x +y -y +z or -z: the "
@@ -116,10 +88,8 @@ void add_run_options(CLI::App& app, Request& r) {
 
 Options effective_options(const Request& r) {
   Options o = Options::of(parse_preset(r.preset));
-  if (!r.grid_spacing.empty()) o.grid_spacing = parse_grid_spacing(r.grid_spacing);
-  if (r.local_noise) o.local_noise = *r.local_noise;
-  if (r.centring) o.centring = *r.centring;
-  if (r.close_handles) o.close_handles = *r.close_handles;
+  if (!r.grid_spacing.empty()) o.grid_spacing = parse_length_choice("grid spacing", r.grid_spacing);
+  if (!r.noise.empty()) o.noise = parse_length_choice("noise", r.noise);
   if (!r.questionable.empty()) o.questionable = parse_questionable(r.questionable);
   if (!r.weights.empty()) o.weights = parse_weights(r.weights);
   if (!r.second_stage.empty()) o.second_stage = parse_second_stage(r.second_stage);
@@ -128,9 +98,6 @@ Options effective_options(const Request& r) {
     o.solver.tolerance = *r.tolerance;
     o.solver.stop_on_stable_signs = false;
   }
-  if (r.min_agreement) o.min_agreement = *r.min_agreement;
-  if (r.recover_share) o.recover_share = *r.recover_share;
-  if (r.pole_ties) o.pole_ties = *r.pole_ties;
   if (r.max_steps) o.solver.max_steps = *r.max_steps;
   o.manifold = r.manifold;
   o.trim = r.trim;
@@ -146,8 +113,6 @@ Options effective_options(const Request& r) {
       points->insert(points->end(), named.points.begin(), named.points.end());
     }
   if (!r.crossing_depth.empty()) o.crossing_depth = parse_crossing_depth(r.crossing_depth);
-  if (r.crossing_count) o.crossing_count = *r.crossing_count;
-  if (r.behind_count) o.behind_count = *r.behind_count;
   o.detect_facade = r.facade.empty() || r.facade == "auto";
   if (!r.facade.empty() && r.facade != "auto" && r.facade != "off") o.facade = parse_axis(r.facade);
   o.threads = r.threads;

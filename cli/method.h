@@ -15,15 +15,12 @@ struct Request {
   InputOptions input;
   std::string output, report, progress = "auto", dump_stages;
   std::string preset = to_string(Preset::robust);
-  std::string weights, second_stage, eigensolver, questionable, grid_spacing, components, smoothing, facade;
+  std::string weights, second_stage, eigensolver, questionable, grid_spacing, noise, components, smoothing, facade;
   bool manifold = Options{}.manifold; // on in both presets
   bool trim = Options{}.trim;
   std::optional<std::uint32_t> smooth;
   std::optional<double> tolerance;
-  std::optional<bool> local_noise, centring, close_handles;
-  std::optional<double> min_agreement, pole_ties, recover_share;
   std::string crossing_depth;
-  std::optional<std::uint32_t> crossing_count, behind_count;
   std::optional<std::uint32_t> max_steps;
   std::vector<std::string> outside_points, inside_points, outside_files, inside_files;
   unsigned threads = Options{}.threads;

@@ -31,8 +31,8 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   const auto evidence = gather_evidence(cloud, scene, context);
   // §3.1, §3.2, §3.3: the eigenvector of the smallest eigenvalue of L x = λ D x on the pole graph G labels the poles
   const auto poles = label_poles(scene, evidence, context);
-  // §3.4: the second graph H labels the rest
-  auto settled = settle(scene, poles, context);
+  // §3.4: all tetrahedra, by the least energy
+  auto settled = settle(scene, evidence, poles, context);
   // §3.5: a manifold
   auto labels = repair(scene, evidence, poles, std::move(settled), context);
   // §3: the faces between inside and outside

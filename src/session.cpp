@@ -23,7 +23,7 @@ Options without_points(Options options) {
 
 } // namespace
 
-/// What does not hang on the points that are named: the scene, the pole graph, and both solutions.
+/// What does not hang on the points that are named: the scene, the pole graph and its solution.
 struct Session::Kept {
   Kept(PointCloud points, const Options& all, Observer& observer)
       : cloud(std::move(points)), options(all), threads(all.threads) {
@@ -38,11 +38,11 @@ struct Session::Kept {
     evidence = gather_evidence(cloud, scene, context);
     solved = solve_poles(scene, evidence, context);
     report.stages.clear();
-    keep_second_solution(unnamed, observer);
+    measure_sides();
     node_of =
         IndexedArray<TetrahedronIndex, std::uint32_t>(scene.tetrahedralization.tetrahedra.size(), NodeIndex::none);
-    for (std::uint32_t node = 0; node < solved.graph.pole.size(); ++node)
-      node_of[scene.poles.tetrahedron[solved.graph.pole.raw()[node]]] = node;
+    for (PoleIndex p{0}; p.value < solved.graph.node.size(); ++p.value)
+      node_of[scene.poles.tetrahedron[p]] = solved.graph.node[p].value;
   }
 
   /// The first partition as it follows from more evidence.
@@ -67,22 +67,14 @@ struct Session::Kept {
   Scene scene;
   Evidence evidence;
   PoleSolution solved;
-  KeptSolution second;
   float outside_value = 0, inside_value = 0; ///< of nodes of the pole graph that are as good as the supernodes
   IndexedArray<TetrahedronIndex, std::uint32_t> node_of;
 
  private:
-  void keep_second_solution(const Options& unnamed, Observer& observer) {
-    const auto& [t, rows, stars, measures, poles] = scene;
-    PoleLabels labels = label_poles(t, stars, poles, solved.graph, solved.partition, solved.component, evidence.labels,
-                                    options.global_sign, options.min_agreement, threads);
-    if (options.questionable == Questionable::after)
-      unlabel_questionable(solved.questionable, evidence.labels, labels.labels);
-    if (options.second_stage == SecondStage::harmonic) {
-      Report aside; // each call solves its own, and reports that
-      Run run(aside, observer);
-      second = keep_solution(scene, labels, {unnamed, run, threads});
-    }
+  void measure_sides() {
+    const PoleLabels labels =
+        label_poles(scene.tetrahedralization, scene.stars, scene.poles, solved.graph, solved.partition,
+                    solved.component, evidence.labels, scene.measures.isolated, options.global_sign, threads);
     const auto& supers = solved.partition.supernode_value;
     outside_value = supers.empty() ? 0 : static_cast<float>(labels.reversed ? -supers[0] : supers[0]);
     inside_value = supers.size() > 1 ? static_cast<float>(supers[1]) : -outside_value;
@@ -117,7 +109,7 @@ Result Session::label(std::span<const Vec3> outside_points, std::span<const Vec3
     first = kept_->adapted_to(evidence);
   });
   const auto poles = label_poles(scene, evidence, kept_->solved, first, context);
-  auto labels = repair(scene, evidence, poles, settle(scene, poles, context, kept_->second), context);
+  auto labels = repair(scene, evidence, poles, settle(scene, evidence, poles, context), context);
   auto surface = make_surface(cloud, scene, evidence, labels, context);
   auto points = point_results(scene, surface, context);
   result.mesh = finish(std::move(surface), cloud, scene, context);

@@ -26,6 +26,7 @@ enum class Eigensolver : std::uint8_t {
   lanczos    ///< the reference: thousands of matrix products on large clouds
 };
 enum class SecondStage : std::uint8_t {
+  cut,        ///< the exact minimum of an energy on all of them. docs/decisions/0026
   harmonic,   ///< both supernodes fixed at +1 and -1, the rest solved for
   eigenvector ///< §3.4: smallest eigenvector of the second graph
 };
@@ -50,13 +51,13 @@ enum class ManifoldRule : std::uint8_t {
 };
 enum class Axis : std::uint8_t { plus_x, minus_x, plus_y, minus_y, plus_z, minus_z };
 
-/// ℓ of §3.3: the diagonal of the squares of the range grid.
-struct GridSpacing {
+/// A length that may be found out from the cloud.
+struct LengthChoice {
   enum class Kind : std::uint8_t {
-    automatic, ///< √2 × the median nearest-sample distance within a scan; off for a single scan
-    off,       ///< no questionable poles
-    length,    ///< `value` in the unit of the input
-    percent    ///< `value` percent of the bounding box's diagonal
+    automatic,
+    off,    ///< 0
+    length, ///< `value` in the unit of the input
+    percent ///< `value` percent of the bounding box's diagonal
   };
   Kind kind = Kind::automatic;
   double value = 0;
@@ -93,44 +94,29 @@ struct Options {
   /// docs/decisions/0013.
   Weights weights = Weights::evidence;
   /// How unlabelled tetrahedra are settled (§3.4).
-  SecondStage second_stage = SecondStage::harmonic;
-  GridSpacing grid_spacing;
+  SecondStage second_stage = SecondStage::cut;
+  /// ℓ of §3.3, the diagonal of the squares of the range grid, for the paper's weights; automatic: √2 × the median
+  /// nearest-sample distance within a scan, off for a single scan. With the others a length given here stands for a
+  /// noise of ℓ / 1.2.
+  LengthChoice grid_spacing;
+  /// Standard deviation of the noise across the surface; automatic: measured at the samples. docs/decisions/0024.
+  LengthChoice noise;
   Questionable questionable = Questionable::before;
-  /// Where grid_spacing is automatic: take ℓ at each sample from the noise
-  /// measured there, and let noisy samples look beyond it for their poles. docs/decisions/0012.
-  bool local_noise = true;
   /// How inside is told from outside once the two sides are apart (§3.2).
   GlobalSign global_sign = GlobalSign::vote;
-  /// A pole whose neighbours in the pole graph agree less than this on its side gets no label in the first
-  /// stage; in [0, 1], 0 as in the paper: every pole gets one. docs/decisions/0005.
-  double min_agreement = 0.8;
-  /// Weight of the ties that join unlabelled tetrahedra to the poles of their samples, relative to the
-  /// faces' weights of §3.4; >= 0, 0 as in the paper: none. docs/decisions/0006.
-  double pole_ties = 0.1;
   /// Make the surface a manifold by relabelling (§3.5).
   bool manifold = true;
   ManifoldRule manifold_rule = ManifoldRule::cheapest;
-  /// Where noise exceeds the spacing: put the surface in the middle of the samples. docs/decisions/0015.
-  bool centring = true;
-  /// Close handles of the size of the noise that no pole vouches for. docs/decisions/0016.
-  bool close_handles = true;
-  /// Samples that the surface passes by closely are taken in when they are at most this share of those on
-  /// it (more are noise); in [0, 1], 0 as in the paper: none. docs/decisions/0007.
-  double recover_share = 0.04;
   KeepComponents components;
   /// Smoothing steps (§3.6); 0: none. Vertices then leave the samples.
   std::uint32_t smooth = 0;
   Smoothing smoothing = Smoothing::laplacian;
   /// Points in space known to be outside or inside (§3.1); input coordinates.
   std::vector<Vec3> outside_points, inside_points;
-  /// Where the cloud knows its sensors (§3.1): a tetrahedron is outside when at least `crossing_count` lines from
-  /// samples to their sensors enter it farther than `crossing_depth` from the sample; a length >= 0, none: the larger
-  /// of 2 spacings and 3 deviations of the noise at the sample. docs/decisions/0017.
+  /// Where the cloud knows its sensors (§3.1): lines from samples to their sensors cross the tetrahedra that they enter
+  /// farther than this from the sample; a length >= 0, none: the larger of half a spacing and 3 deviations of the noise
+  /// at the sample. docs/decisions/0017.
   std::optional<double> crossing_depth;
-  std::uint32_t crossing_count = 2; ///< >= 1
-  /// And inside when at least so many samples lie right in front of it, seen from their sensors, and no line crosses
-  /// it; 0 as in the paper: never.
-  std::uint32_t behind_count = 5;
   /// One-sided scan: outside is in front, along this direction (§3.1). The result is then open.
   std::optional<Axis> facade;
   /// Find out from the sensors whether the scan is one-sided; Report::one_sided. That makes trimming stricter and
@@ -160,7 +146,7 @@ std::string to_string(GlobalSign value);
 std::string to_string(ManifoldRule value);
 std::string to_string(Smoothing value);
 std::string to_string(Axis value);
-std::string to_string(const GridSpacing& value);
+std::string to_string(const LengthChoice& value);
 std::string to_string(const KeepComponents& value);
 
 // The reverse. \throws Error{usage} naming the accepted values.
@@ -171,10 +157,10 @@ SecondStage parse_second_stage(const std::string& text);
 Questionable parse_questionable(const std::string& text);
 Smoothing parse_smoothing(const std::string& text);
 Axis parse_axis(const std::string& text);
-GridSpacing parse_grid_spacing(const std::string& text);             ///< auto, off, LENGTH or N%
-KeepComponents parse_components(const std::string& text);            ///< supported, all, largest or N
-std::optional<double> parse_crossing_depth(const std::string& text); ///< auto or LENGTH
-Vec3 parse_point(const std::string& text);                           ///< x,y,z
+LengthChoice parse_length_choice(const std::string& what, const std::string& text); ///< auto, off, LENGTH or N%
+KeepComponents parse_components(const std::string& text);                           ///< supported, all, largest or N
+std::optional<double> parse_crossing_depth(const std::string& text);                ///< auto or LENGTH
+Vec3 parse_point(const std::string& text);                                          ///< x,y,z
 
 /// \throws Error{usage} naming the first option out of range.
 void check_options(const Options& options);

@@ -34,7 +34,7 @@ Samples prepare_samples(std::span<const Vec3> points, const Threads& threads);
 double median_spacing(const Samples& samples, std::span<const Vec3> points, std::span<const std::uint32_t> scan_index,
                       const Threads& threads);
 /// ℓ of §3.3 from the option; 0 means off.
-double resolve_grid_spacing(const GridSpacing& option, const Samples& samples, std::span<const Vec3> points,
+double resolve_grid_spacing(const LengthChoice& option, const Samples& samples, std::span<const Vec3> points,
                             std::span<const std::uint32_t> scan_index, const Threads& threads);
 
 /// §3: Delaunay tetrahedra of the samples and the corners of a cube whose half side is 10 diagonals of
@@ -47,8 +47,10 @@ VertexStars vertex_stars(const Tetrahedralization& tetrahedralization, const Thr
 /// §3: the pole pair of every sample, the farthest circumcentres on either side. With `reach` (may be empty;
 /// a length per sample) a sample takes its pair from the poles of all samples within reach: where noise
 /// exceeds the spacing no single cell sees both sides (Alliez et al. 2007; not in the paper).
+/// With Weights::evidence "the other side" of a cell that leaves the cloud is that of the mean direction in which it
+/// does (Amenta and Bern 1999): at a sharp corner it leaves in several.
 Poles find_poles(const Tetrahedralization& tetrahedralization, const VertexStars& stars, std::span<const float> reach,
-                 const Threads& threads);
+                 Weights weights, const Threads& threads);
 
 /// §3.1: what is known beforehand. Tetrahedra at the cube are outside (with a façade: those at its front;
 /// those whose corners are all at the back are inside), as are those that hold the user's points.
@@ -86,10 +88,8 @@ SightCrossings sight_crossings(const Tetrahedralization& tetrahedralization, con
                                std::span<const SightLine> lines, Weights weights, const Labels& known,
                                const Threads& threads);
 
-/// What makes a tetrahedron outside or inside, as in Options.
+/// With Weights::paper more than one line makes a tetrahedron outside and nothing makes it inside.
 struct SightRule {
-  std::uint32_t crossing_count = 2; ///< lines
-  std::uint32_t behind_count = 0;   ///< samples; 0: none makes it inside
   Weights weights = Weights::evidence;
   std::span<const float> isolated =
       {}; ///< of each sample, see samples/neighbourhoods.h; tetrahedra at those are not made inside
@@ -101,6 +101,9 @@ struct SightRule {
 /// Weights::paper all lines count and nothing else.
 struct SightLabels {
   Labels labels;
+  /// How many lines that are believed cross each tetrahedron, and how many samples lie right in front of it; 255: or
+  /// more.
+  IndexedArray<TetrahedronIndex, std::uint8_t> front, behind;
   std::uint64_t disbelieved = 0;         ///< lines
   std::uint64_t outside = 0, inside = 0; ///< tetrahedra that the lines made so
 };
@@ -114,10 +117,12 @@ std::vector<std::uint8_t> questionable_tetrahedra(const Tetrahedralization& tetr
 
 /// §3.1: the signed graph on the poles with the outside supernode (0) and, when something is known to be
 /// inside, the inside supernode (1). Poles of tetrahedra in `left_out` (may be empty) are no nodes. The pole
-/// pairs of `isolated` samples (may be empty) count only as far as their cells are long.
+/// pairs of `isolated` samples (may be empty) count only as far as their cells are long. With `contract` poles of
+/// neighbouring samples whose balls nearly coincide (cos φ < -0.98) and that are no pole pair are one node; its edges
+/// are the sums of theirs (not in the paper, where an edge of weight e^8 joins them; docs/decisions/0025).
 PoleGraph pole_graph(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
                      const Labels& known, std::span<const std::uint8_t> left_out, std::span<const float> isolated,
-                     const Threads& threads);
+                     bool contract, const Threads& threads);
 
 /// Called now and then with the fraction done; may throw to cancel.
 using Checkpoint = std::function<void(double)>;
@@ -131,30 +136,28 @@ Partition partition_poles(PoleGraph& graph, const SolverOptions& options, const 
 
 /// §3.2: labels from the signs of the partition, added to what is known. Nodes of components without a
 /// supernode take the side that their labelled neighbours by face vote for by two thirds, else none.
-/// A node gets no label when its neighbours' agreement Σ w x / Σ |w x| with its own sign is below
-/// min_agreement (0: all get one; not in the paper, see docs/decisions).
+/// `trust` is the agreement Σ w x / Σ |w x| of a node's neighbours with its own sign, not below 0 (not in the paper).
+/// \param isolated see Neighbourhoods; the poles of these samples say little of the global sign; may be empty
 struct PoleLabels {
   Labels labels;
-  bool reversed = false;               ///< the vote overruled the outside supernode's own sign
-  double vote = 0;                     ///< evidence for the sign chosen, in [-1, 1]; 1 = unanimous
-  std::uint64_t left_to_stage_two = 0; ///< poles of components whose side is open
-  std::uint64_t contradicted = 0;      ///< poles without a label because their neighbours disagree
+  IndexedArray<TetrahedronIndex, std::uint8_t> trust; ///< agreement of labelled poles, 255: 1
+  bool reversed = false;                              ///< the vote overruled the outside supernode's own sign
+  double vote = 0;                                    ///< evidence for the sign chosen, in [-1, 1]; 1 = unanimous
+  std::uint64_t left_to_stage_two = 0;                ///< poles of components whose side is open
+  std::uint64_t contradicted = 0;                     ///< poles whose neighbours disagree
 };
 PoleLabels label_poles(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
                        const PoleGraph& graph, const Partition& partition, std::span<const std::uint32_t> component,
-                       const Labels& known, GlobalSign global_sign, double min_agreement, const Threads& threads);
+                       const Labels& known, std::span<const float> isolated, GlobalSign global_sign,
+                       const Threads& threads);
 
 /// §3.3: removes the labels of questionable tetrahedra but for those known beforehand.
 /// \return how many
 std::uint64_t unlabel_questionable(std::span<const std::uint8_t> questionable, const Labels& known, Labels& labels);
 
 /// §3.4: one node per unlabelled tetrahedron, supernodes for all outside (0) and all inside (1) ones;
-/// a face weighs longest/shortest of its edges. With pole_ties > 0 each node is also joined to the
-/// supernodes by that factor times Σ e^(4 cos ∠(c s p)) over the poles p of its samples s whose two poles
-/// have opposite labels, c being its circumcentre; samples with a reach (may be empty) > 0 are too noisy for
-/// that (not in the paper).
-TetrahedronGraph tetrahedron_graph(const Tetrahedralization& tetrahedralization, const Poles& poles,
-                                   const Labels& labels, double pole_ties, std::span<const float> reach,
+/// a face weighs longest/shortest of its edges.
+TetrahedronGraph tetrahedron_graph(const Tetrahedralization& tetrahedralization, const Labels& labels,
                                    const Threads& threads);
 
 /// §3.4: `eigenvector` as in the paper; `harmonic`: outside fixed at +1, inside at -1.

@@ -281,11 +281,11 @@ struct SignedGraph {
   }
 };
 
-/// The pole graph G (§3.1): which pole each node stands for. Supernode 0 is z (outside); supernode 1,
+/// The pole graph G (§3.1): which poles each node stands for. Supernode 0 is z (outside); supernode 1,
 /// when there is one, is the inside supernode.
 struct PoleGraph {
   SignedGraph graph;
-  IndexedArray<NodeIndex, PoleIndex> pole;
+  IndexedArray<PoleIndex, NodeIndex> node; ///< of each pole; invalid where it is known, or left out
 };
 
 /// The second graph (§3.4): which unlabelled tetrahedron each node stands for. Supernode 0 holds all

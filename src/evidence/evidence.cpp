@@ -16,25 +16,26 @@ Labels named_labels(const Scene& scene, const Options& options, const Threads& t
 }
 
 /// How far in front of each sample a tetrahedron must begin to count as crossed.
-std::vector<float> crossing_depths(const std::vector<float>& grid_spacing, const Options& options, double spacing,
-                                   std::size_t samples) {
-  if (options.crossing_depth) return std::vector<float>(samples, static_cast<float>(*options.crossing_depth));
-  std::vector<float> depth(samples, static_cast<float>(2 * spacing));
-  constexpr float noise_in_grid_spacings = 3 / 1.2f; // 3 deviations; a grid spacing is 1.2 of them
-  for (std::size_t i = 0; i < grid_spacing.size(); ++i)
-    depth[i] = std::max(depth[i], noise_in_grid_spacings * grid_spacing[i]);
+std::vector<float> crossing_depths(const SampleModel& model, const Options& options) {
+  if (options.crossing_depth)
+    return std::vector<float>(model.spacing.size(), static_cast<float>(*options.crossing_depth));
+  // Nearer than that the line runs within what the sample itself is uncertain by.
+  constexpr float depth_in_spacings = 0.5f, depth_in_sigmas = 3;
+  std::vector<float> depth(model.spacing.size());
+  for (std::size_t i = 0; i < depth.size(); ++i)
+    depth[i] = std::max(depth_in_spacings * model.spacing[i], depth_in_sigmas * model.noise[i]);
   return depth;
 }
 
 LinesOfSight follow_lines(const PointCloud& cloud, const Scene& scene, const Labels& named, const Options& options,
                           const Threads& threads) {
   const auto& [t, rows, stars, measures, poles] = scene;
-  const auto depth = crossing_depths(measures.grid, options, measures.around.nearest, t.sample_count);
+  const auto depth = crossing_depths(measures.model, options);
   const auto lines = sight_lines(cloud, rows, t, depth, measures.isolated);
   LinesOfSight sight;
   if (options.detect_facade) sight.one_sided = one_sided_scan(t, lines);
   sight.crossings = sight_crossings(t, stars, lines, options.weights, named, threads);
-  const SightRule rule{options.crossing_count, options.behind_count, options.weights, measures.isolated};
+  const SightRule rule{options.weights, measures.isolated};
   sight.labels = line_of_sight(t, stars, lines, sight.crossings, rule, named, threads);
   return sight;
 }
@@ -50,6 +51,7 @@ Evidence gather_evidence(const PointCloud& cloud, const Scene& scene, const Cont
   LinesOfSight sight =
       run.stage("line_of_sight", [&] { return follow_lines(cloud, scene, evidence.named, options, threads); });
   evidence.labels = std::move(sight.labels.labels);
+  evidence.sight = std::make_shared<const SightLabels>(std::move(sight.labels));
   evidence.crossings = std::make_shared<const SightCrossings>(std::move(sight.crossings));
   evidence.one_sided = sight.one_sided;
   return evidence;

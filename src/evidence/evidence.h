@@ -25,6 +25,8 @@ struct Evidence {
   Labels labels; ///< and from the lines of sight
   /// The lines do not change when points are named: those of a session are shared. Null: no sensor is known.
   std::shared_ptr<const SightCrossings> crossings;
+  /// How many lines cross each tetrahedron, how many samples lie right in front of it; see SightLabels. Null likewise.
+  std::shared_ptr<const SightLabels> sight;
   std::optional<OneSided> one_sided; ///< the sensors all lie on one side
 };
 

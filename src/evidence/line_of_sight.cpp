@@ -16,9 +16,6 @@ namespace eigencrust {
 namespace {
 
 constexpr std::size_t lines_per_block = 512;
-// How far behind a sample there is matter, in crossing depths: farther, and thin walls seen from the outer side
-// would close what lies behind them (docs/decisions/0017).
-constexpr double matter = 3;
 // A single sample in front of a tetrahedron may be an outlier.
 constexpr std::uint32_t least_doubt = 2;
 // The lines of a façade's cameras and of one range image are within 60° of their mean, those of scans from around
@@ -60,12 +57,14 @@ class Ray {
   double depth_;
 };
 
-/// What lies behind the sample, seen from the scanner, from one depth on.
+/// What holds the places half a depth and one depth behind the sample, seen from the scanner.
 void count_behind(const Tetrahedralization& t, const VertexStars& stars, const SightLine& line, Tally& behind) {
   const double depth = static_cast<double>(line.depth);
-  SegmentWalk walk(t, stars, line.sample, Ray(t, line).at(-matter * depth));
-  while (walk.next())
-    if (walk.exit_depth() > depth) behind.add(walk.tetrahedron());
+  SegmentWalk walk(t, stars, line.sample, Ray(t, line).at(-depth));
+  while (walk.next()) {
+    for (const double place : {0.5 * depth, 0.999 * depth}) // the walk ends at one
+      if (walk.depth() <= place && place < walk.exit_depth()) behind.add(walk.tetrahedron());
+  }
 }
 
 /// Where the line from a sample ends: the scanner, or a place outside the samples' box when that comes first. Beyond
@@ -174,7 +173,14 @@ SightLabels line_of_sight(const Tetrahedralization& t, const VertexStars& stars,
         return disbelieved;
       },
       lines_per_block);
+  result.front = result.behind = IndexedArray<TetrahedronIndex, std::uint8_t>(known.size());
+  for_each_index(threads, known.size(), [&](std::size_t i) {
+    const TetrahedronIndex at{static_cast<std::uint32_t>(i)};
+    result.front[at] = static_cast<std::uint8_t>(std::min(255u, believed[at]));
+    result.behind[at] = static_cast<std::uint8_t>(std::min(255u, behind[at]));
+  });
   result.labels = known;
+  const std::uint32_t least_lines = rule.weights == Weights::paper ? 2 : 1; // "more than once"
   // Behind a thin part a tetrahedron may reach out to an outlier.
   const auto holds_isolated = [&](TetrahedronIndex at) {
     return !rule.isolated.empty() && std::any_of(t.tetrahedra[at].begin(), t.tetrahedra[at].end(), [&](SampleIndex s) {
@@ -184,9 +190,8 @@ SightLabels line_of_sight(const Tetrahedralization& t, const VertexStars& stars,
   for_each_index(threads, known.size(), [&](std::size_t i) {
     const TetrahedronIndex at{static_cast<std::uint32_t>(i)};
     if (known[at] != Label::unlabelled) return;
-    if (believed[at] >= rule.crossing_count && believed[at] > behind[at]) result.labels[at] = Label::outside;
-    if (rule.behind_count > 0 && behind[at] >= rule.behind_count && crossed[at] == 0 && !holds_isolated(at))
-      result.labels[at] = Label::inside;
+    if (believed[at] >= least_lines && believed[at] > behind[at]) result.labels[at] = Label::outside;
+    if (behind[at] > 0 && crossed[at] == 0 && !holds_isolated(at)) result.labels[at] = Label::inside;
   });
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (known.raw()[i] != Label::unlabelled) continue;

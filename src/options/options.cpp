@@ -19,8 +19,8 @@ constexpr Names<Preset, 2> presets{{{Preset::robust, "robust"}, {Preset::paper, 
 constexpr Names<Weights, 2> weights_names{{{Weights::evidence, "evidence"}, {Weights::paper, "paper"}}};
 constexpr Names<Eigensolver, 2> eigensolvers{
     {{Eigensolver::multigrid, "multigrid"}, {Eigensolver::lanczos, "lanczos"}}};
-constexpr Names<SecondStage, 2> second_stages{
-    {{SecondStage::harmonic, "harmonic"}, {SecondStage::eigenvector, "eigenvector"}}};
+constexpr Names<SecondStage, 3> second_stages{
+    {{SecondStage::cut, "cut"}, {SecondStage::harmonic, "harmonic"}, {SecondStage::eigenvector, "eigenvector"}}};
 constexpr Names<Questionable, 3> questionables{
     {{Questionable::before, "before"}, {Questionable::after, "after"}, {Questionable::never, "never"}}};
 constexpr Names<GlobalSign, 2> global_signs{{{GlobalSign::vote, "vote"}, {GlobalSign::supernode, "supernode"}}};
@@ -81,14 +81,7 @@ Options Options::of(Preset preset) {
     options.second_stage = SecondStage::eigenvector;
     options.questionable = Questionable::after;
     options.global_sign = GlobalSign::supernode;
-    options.min_agreement = 0;
     options.weights = Weights::paper;
-    options.behind_count = 0;
-    options.local_noise = false;
-    options.centring = false;
-    options.close_handles = false;
-    options.pole_ties = 0;
-    options.recover_share = 0;
     options.manifold_rule = ManifoldRule::paper;
     options.components.kind = KeepComponents::Kind::all;
   }
@@ -105,15 +98,15 @@ std::string to_string(ManifoldRule value) { return name_of(manifold_rules, value
 std::string to_string(Smoothing value) { return name_of(smoothings, value); }
 std::string to_string(Axis value) { return name_of(axes, value); }
 
-std::string to_string(const GridSpacing& value) {
+std::string to_string(const LengthChoice& value) {
   switch (value.kind) {
-    case GridSpacing::Kind::automatic:
+    case LengthChoice::Kind::automatic:
       return "auto";
-    case GridSpacing::Kind::off:
+    case LengthChoice::Kind::off:
       return "off";
-    case GridSpacing::Kind::length:
+    case LengthChoice::Kind::length:
       return shortest(value.value);
-    case GridSpacing::Kind::percent:
+    case LengthChoice::Kind::percent:
       return shortest(value.value) + "%";
   }
   return "?";
@@ -143,13 +136,13 @@ Questionable parse_questionable(const std::string& text) {
 Smoothing parse_smoothing(const std::string& text) { return parse(smoothings, "smoothing method", text); }
 Axis parse_axis(const std::string& text) { return parse(axes, "axis", text); }
 
-GridSpacing parse_grid_spacing(const std::string& text) {
-  if (text == "auto") return {GridSpacing::Kind::automatic, 0};
-  if (text == "off") return {GridSpacing::Kind::off, 0};
+LengthChoice parse_length_choice(const std::string& what, const std::string& text) {
+  if (text == "auto") return {LengthChoice::Kind::automatic, 0};
+  if (text == "off") return {LengthChoice::Kind::off, 0};
   const bool percent = !text.empty() && text.back() == '%';
   const auto value = number(percent ? std::string_view(text).substr(0, text.size() - 1) : std::string_view(text));
-  if (!value || *value <= 0) reject("grid spacing", text, "auto, off, a positive length or N%");
-  return {percent ? GridSpacing::Kind::percent : GridSpacing::Kind::length, *value};
+  if (!value || *value <= 0) reject(what, text, "auto, off, a positive length or N%");
+  return {percent ? LengthChoice::Kind::percent : LengthChoice::Kind::length, *value};
 }
 
 KeepComponents parse_components(const std::string& text) {
@@ -187,10 +180,11 @@ void check_options(const Options& options) {
   const auto require = [](bool fine, const char* cause, const char* remedy) {
     if (!fine) throw Error(ErrorKind::usage, "options", cause, remedy);
   };
-  const bool has_length =
-      options.grid_spacing.kind == GridSpacing::Kind::length || options.grid_spacing.kind == GridSpacing::Kind::percent;
-  require(!has_length || (options.grid_spacing.value > 0 && std::isfinite(options.grid_spacing.value)),
-          "the grid spacing is not positive", "give a positive length or percentage");
+  for (const LengthChoice& length : {options.grid_spacing, options.noise}) {
+    const bool is_given = length.kind == LengthChoice::Kind::length || length.kind == LengthChoice::Kind::percent;
+    require(!is_given || (length.value > 0 && std::isfinite(length.value)),
+            "the grid spacing or the noise is not positive", "give a positive length or percentage");
+  }
   require(options.components.kind != KeepComponents::Kind::count || options.components.count > 0,
           "no component is to be kept", "keep at least one");
   require(options.solver.tolerance > 0 && options.solver.tolerance < 1, "the solver's tolerance is not in (0, 1)",
@@ -198,14 +192,8 @@ void check_options(const Options& options) {
   require(options.solver.stable_share > 0 && options.solver.stable_share <= 1, "the stable share is not in (0, 1]",
           "use 2e-4");
   require(options.solver.max_steps >= 1, "the solver may take no step", "allow at least one");
-  require(options.min_agreement >= 0 && options.min_agreement <= 1, "the least agreement is not in [0, 1]", "use 0.8");
-  require(options.pole_ties >= 0 && std::isfinite(options.pole_ties), "the weight of the pole ties is negative",
-          "use 0.1");
-  require(options.recover_share >= 0 && options.recover_share <= 1, "the share of samples to recover is not in [0, 1]",
-          "use 0.04");
   require(!options.crossing_depth || (*options.crossing_depth >= 0 && std::isfinite(*options.crossing_depth)),
           "the crossing depth is negative", "give a length, 0 or more");
-  require(options.crossing_count >= 1, "the crossing count is 0", "ask for at least one line");
   require(options.smooth <= 1000, "more than 1000 smoothing steps", "use fewer");
   require(options.threads <= 1024, "more than 1024 threads", "use fewer");
   for (const auto* points : {&options.outside_points, &options.inside_points})

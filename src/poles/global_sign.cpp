@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t neighbourhood = 8;
 
-/// Least for cells no longer than 1.2 neighbourhoods, 1 from 3.2 (docs/decisions/0003). Never 0: on a
-/// handful of points no cell is long, yet they outweigh the weak attraction across their surface.
+/// Of isolated samples: least for cells no longer than 1.2 neighbourhoods, 1 from 3.2 (docs/decisions/0003). Never 0:
+/// on a handful of points no cell is long, yet they outweigh the weak attraction across their surface.
 double trust(double shorter_pole, double neighbourhood_radius) {
   return std::clamp((shorter_pole / neighbourhood_radius - 1.2) / 2, 0.05, 1.0);
 }
@@ -29,32 +29,30 @@ struct Evidence {
 
 double outside_evidence(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles,
                         const PoleGraph& graph, const Partition& partition, const Labels& known,
-                        const Threads& threads) {
-  std::vector<std::uint32_t> node_of(poles.tetrahedron.size(), NodeIndex::none);
-  for (std::uint32_t node = 0; node < graph.pole.size(); ++node) node_of[graph.pole.raw()[node].value] = node;
-
+                        std::span<const float> isolated, const Threads& threads) {
   std::vector<std::array<float, 2>> repulsive(t.sample_count, {0, 0}); // weight counted, weight claimed; per sample
   std::vector<std::uint32_t> target(t.sample_count, NodeIndex::none);
-  for_blocks(threads, t.sample_count, block_with_table(t.sample_count),
-             [&](std::size_t begin, std::size_t end, std::size_t) {
-               StarSearch search(t, stars);
-               for (std::size_t i = begin; i < end; ++i) {
-                 PolePair pair = poles.of_sample.raw()[i];
-                 if (!pair.first.valid() || !pair.second.valid()) continue;
-                 if (known[poles.tetrahedron[pair.second]] == Label::outside) std::swap(pair.first, pair.second);
-                 if (known[poles.tetrahedron[pair.first]] != Label::outside) continue;
-                 target[i] = node_of[pair.second.value];
-                 if (target[i] == NodeIndex::none) continue;
-                 const SampleIndex s{static_cast<std::uint32_t>(i)};
-                 const Sphere &a = poles.sphere[pair.first], &b = poles.sphere[pair.second];
-                 const double around = search.distance_to_nearest(s, neighbourhood);
-                 const double weight = -opposite_weight(t.positions[s], a, b);
-                 repulsive[i] = {static_cast<float>(trust(std::min(a.radius, b.radius), around) * weight),
-                                 static_cast<float>(weight)};
-               }
-             });
+  for_blocks(
+      threads, t.sample_count, block_with_table(t.sample_count), [&](std::size_t begin, std::size_t end, std::size_t) {
+        StarSearch search(t, stars);
+        for (std::size_t i = begin; i < end; ++i) {
+          PolePair pair = poles.of_sample.raw()[i];
+          if (!pair.first.valid() || !pair.second.valid()) continue;
+          if (known[poles.tetrahedron[pair.second]] == Label::outside) std::swap(pair.first, pair.second);
+          if (known[poles.tetrahedron[pair.first]] != Label::outside) continue;
+          target[i] = graph.node[pair.second].value;
+          if (target[i] == NodeIndex::none) continue;
+          const SampleIndex s{static_cast<std::uint32_t>(i)};
+          const Sphere &a = poles.sphere[pair.first], &b = poles.sphere[pair.second];
+          const bool is_isolated = isolated.empty() || isolated[i] > 0;
+          const double believed =
+              is_isolated ? trust(std::min(a.radius, b.radius), search.distance_to_nearest(s, neighbourhood)) : 1;
+          const double weight = -opposite_weight(t.positions[s], a, b);
+          repulsive[i] = {static_cast<float>(believed * weight), static_cast<float>(weight)};
+        }
+      });
 
-  std::vector<double> claimed(graph.pole.size(), 0);
+  std::vector<double> claimed(graph.graph.node_count(), 0);
   Evidence sum;
   for (std::uint32_t i = 0; i < t.sample_count; ++i) {
     if (target[i] == NodeIndex::none) continue;
@@ -64,7 +62,7 @@ double outside_evidence(const Tetrahedralization& t, const VertexStars& stars, c
     sum.balance -= value > 0 ? weight : value < 0 ? -weight : 0;
     sum.total += weight;
   }
-  for (std::uint32_t node = 0; node < graph.pole.size(); ++node) {
+  for (std::uint32_t node = 0; node < graph.graph.node_count(); ++node) {
     // What is left of the supernode's edge when the repulsive part is taken out is attraction.
     const double weight = std::max(0.0, static_cast<double>(graph.graph.supernodes[0].weight[node]) + claimed[node]);
     const float value = partition.value[node];

@@ -27,18 +27,21 @@ std::uint64_t label_free_components(const Tetrahedralization& t, const Poles& po
   // balance > 0: positive values of the component are outside.
   std::vector<double> balance(count, 0), total(count, 0);
   std::vector<std::uint32_t> size(count, 0), positive(count, 0);
-  const auto tetrahedron_of = [&](std::uint32_t node) { return poles.tetrahedron[graph.pole.raw()[node]]; };
-  for (std::uint32_t node = 0; node < graph.pole.size(); ++node) {
-    if (component[node] == 0 || partition.value[node] == 0) continue;
+  const auto for_each_pole = [&](auto&& visit) {
+    for (PoleIndex p{0}; p.value < graph.node.size(); ++p.value)
+      if (graph.node[p].valid()) visit(graph.node[p].value, poles.tetrahedron[p]);
+  };
+  for_each_pole([&](std::uint32_t node, TetrahedronIndex tetrahedron) {
+    if (component[node] == 0 || partition.value[node] == 0) return;
     ++size[component[node]];
     positive[component[node]] += partition.value[node] > 0;
-    for (const TetrahedronIndex n : t.neighbours[tetrahedron_of(node)]) {
+    for (const TetrahedronIndex n : t.neighbours[tetrahedron]) {
       if (!n.valid() || labels[n] == Label::unlabelled) continue;
       const bool agrees = (labels[n] == Label::outside) == (partition.value[node] > 0);
       balance[component[node]] += agrees ? 1 : -1;
       total[component[node]] += 1;
     }
-  }
+  });
   for (std::uint32_t c = 1; c < count; ++c) {
     if (total[c] >= least_contacts * size[c]) continue;
     const bool one_sided = positive[c] == 0 || positive[c] == size[c];
@@ -47,16 +50,16 @@ std::uint64_t label_free_components(const Tetrahedralization& t, const Poles& po
   }
   std::uint64_t open = 0;
   std::vector<std::pair<TetrahedronIndex, Label>> decided;
-  for (std::uint32_t node = 0; node < graph.pole.size(); ++node) {
+  for_each_pole([&](std::uint32_t node, TetrahedronIndex tetrahedron) {
     const std::uint32_t c = component[node];
-    if (c == 0) continue;
+    if (c == 0) return;
     if (partition.value[node] == 0 || std::fabs(balance[c]) * 3 < total[c]) {
       ++open;
-      continue;
+      return;
     }
     const bool outside = (partition.value[node] > 0) == (balance[c] > 0);
-    decided.emplace_back(tetrahedron_of(node), outside ? Label::outside : Label::inside);
-  }
+    decided.emplace_back(tetrahedron, outside ? Label::outside : Label::inside);
+  });
   for (const auto& [tetrahedron, label] : decided) labels[tetrahedron] = label;
   return open;
 }
@@ -81,7 +84,8 @@ double agreement(const SignedGraph& graph, const Partition& partition, std::uint
 
 PoleLabels label_poles(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles,
                        const PoleGraph& graph, const Partition& partition, std::span<const std::uint32_t> component,
-                       const Labels& known, GlobalSign global_sign, double min_agreement, const Threads& threads) {
+                       const Labels& known, std::span<const float> isolated, GlobalSign global_sign,
+                       const Threads& threads) {
   PoleLabels result;
   result.labels = known;
   // The supernode's own component may be 0 when the vector is localized elsewhere; positive then stands.
@@ -90,23 +94,24 @@ PoleLabels label_poles(const Tetrahedralization& t, const VertexStars& stars, co
   // An inside supernode settles the matter: both supernodes then have known labels.
   const bool both_known = graph.graph.supernodes.size() > 1;
   if (global_sign == GlobalSign::vote && !both_known) {
-    result.vote = outside_evidence(t, stars, poles, graph, partition, known, threads);
+    result.vote = outside_evidence(t, stars, poles, graph, partition, known, isolated, threads);
     if (result.vote != 0) outside_sign = result.vote > 0 ? 1 : -1;
     result.vote = std::fabs(result.vote);
   }
   result.reversed = outside_sign != own;
-  std::vector<std::uint8_t> is_sure(graph.pole.size(), 1);
-  if (min_agreement > 0)
-    for_each_index(threads, is_sure.size(), [&](std::size_t node) {
-      is_sure[node] = agreement(graph.graph, partition, static_cast<std::uint32_t>(node)) >= min_agreement;
-    });
-  for (std::uint32_t node = 0; node < graph.pole.size(); ++node) {
+  std::vector<double> agreed(graph.graph.node_count(), 1);
+  for_each_index(threads, agreed.size(), [&](std::size_t node) {
+    agreed[node] = agreement(graph.graph, partition, static_cast<std::uint32_t>(node));
+  });
+  result.trust = IndexedArray<TetrahedronIndex, std::uint8_t>(t.tetrahedra.size(), 255);
+  for (PoleIndex p{0}; p.value < graph.node.size(); ++p.value) {
+    const std::uint32_t node = graph.node[p].value;
+    if (!graph.node[p].valid()) continue;
     if ((!component.empty() && component[node] != 0) || partition.value[node] == 0) continue;
-    if (!is_sure[node]) {
-      ++result.contradicted;
-      continue;
-    }
-    const TetrahedronIndex tetrahedron = poles.tetrahedron[graph.pole.raw()[node]];
+    result.trust[poles.tetrahedron[p]] =
+        static_cast<std::uint8_t>(std::lround(255 * std::clamp(agreed[node], 0.0, 1.0)));
+    result.contradicted += agreed[node] < 0;
+    const TetrahedronIndex tetrahedron = poles.tetrahedron[p];
     if (known[tetrahedron] != Label::unlabelled) continue; // named after the graph was made, see Session
     const bool outside = static_cast<double>(partition.value[node]) * outside_sign > 0;
     result.labels[tetrahedron] = outside ? Label::outside : Label::inside;

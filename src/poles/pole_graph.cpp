@@ -2,6 +2,7 @@
 // §3.1: the signed graph on the poles.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <eigencrust/stages.h>
 
@@ -47,13 +48,74 @@ double trust_in_isolated(double shorter_pole, double neighbourhood, bool at_outs
   return at_outside ? std::clamp((ratio - 1.5) / 2, 0.0, 1.0) : std::clamp(ratio - 0.7, 0.0, 1.0);
 }
 
+/// cos φ of two spheres: -1 where one touches the other from within, 1 from outside; more where they do not meet.
+double cosine_of_spheres(const Sphere& a, const Sphere& b) {
+  const double d2 = squared_norm(a.centre - b.centre);
+  return (d2 - a.radius * a.radius - b.radius * b.radius) / (2 * a.radius * b.radius);
+}
+
 /// Same side: e^(4-4cosφ); 0 where the spheres do not meet.
 double same_weight(const Sphere& a, const Sphere& b) {
-  const double d2 = squared_norm(a.centre - b.centre);
-  const double cosine = (d2 - a.radius * a.radius - b.radius * b.radius) / (2 * a.radius * b.radius);
+  const double cosine = cosine_of_spheres(a, b);
   if (!(cosine <= 1)) return 0;
   return std::exp(4 - 4 * std::max(cosine, -1.0));
 }
+
+/// Is one the other's opposite pole at some sample?
+bool is_pole_pair(const Poles& poles, const Lists& samples_of, std::uint32_t p, std::uint32_t q) {
+  const auto samples = samples_of[p];
+  return std::any_of(samples.begin(), samples.end(), [&](std::uint32_t s) {
+    const PolePair& pair = poles.of_sample.raw()[s];
+    return pair.first.value == q || pair.second.value == q;
+  });
+}
+
+/// Clusters of poles (docs/decisions/0025): balls that nearly coincide are on the same side. The smallest pole of its
+/// cluster for each.
+class Contraction {
+ public:
+  Contraction(const Poles& poles, const Lists& neighbours, const Lists& samples_of,
+              const std::vector<std::uint32_t>& node_of, std::span<const float> isolated, const Threads& threads)
+      : parent_(poles.tetrahedron.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+    const std::size_t samples = poles.of_sample.size();
+    std::vector<std::vector<std::array<std::uint32_t, 2>>> blocks((samples + default_block - 1) / default_block);
+    const auto is_node = [&](PoleIndex p) { return p.valid() && node_of[p.value] < inside_node; };
+    for_blocks(threads, samples, default_block, [&](std::size_t first, std::size_t last, std::size_t b) {
+      const auto offer = [&](PoleIndex p, PoleIndex q) {
+        if (p == q || !is_node(p) || !is_node(q)) return;
+        if (!(cosine_of_spheres(poles.sphere[p], poles.sphere[q]) < nearly_one)) return;
+        if (!is_pole_pair(poles, samples_of, p.value, q.value)) blocks[b].push_back({p.value, q.value});
+      };
+      for (std::size_t s = first; s < last; ++s)
+        for (const std::uint32_t n : neighbours[s]) {
+          if (n < s || (!isolated.empty() && (isolated[s] > 0 || isolated[n] > 0))) continue;
+          const PolePair &here = poles.of_sample.raw()[s], &there = poles.of_sample.raw()[n];
+          for (const PoleIndex p : {here.first, here.second})
+            for (const PoleIndex q : {there.first, there.second}) offer(p, q);
+        }
+    });
+    for (const auto& block : blocks)
+      for (const auto& [p, q] : block) unite(p, q);
+  }
+
+  std::uint32_t first_of(std::uint32_t p) {
+    while (parent_[p] != p) p = parent_[p] = parent_[parent_[p]];
+    return p;
+  }
+
+ private:
+  // At -0.95 clusters of the raw armadillo hold poles of both sides (docs/decisions/0025).
+  static constexpr double nearly_one = -0.98;
+
+  void unite(std::uint32_t p, std::uint32_t q) {
+    p = first_of(p);
+    q = first_of(q);
+    parent_[std::max(p, q)] = std::min(p, q);
+  }
+
+  std::vector<std::uint32_t> parent_;
+};
 
 /// Rows one after the other.
 struct Rows {
@@ -61,41 +123,58 @@ struct Rows {
   std::vector<float> weight;
 };
 
-/// Assembles rows one by one from the stars: no pair list, no global sort.
+/// Sums by number. Whole units: what is added in another order gives the same.
+class WeightTable {
+ public:
+  explicit WeightTable(std::size_t bound) : numbers_(bound), place_(bound) {}
+  void clear() {
+    numbers_.clear();
+    sums_.clear();
+  }
+  void add(std::uint32_t number, double weight) {
+    if (numbers_.add(number)) {
+      place_[number] = static_cast<std::uint32_t>(sums_.size());
+      sums_.push_back(0);
+    }
+    sums_[place_[number]] += std::llround(weight * units);
+  }
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (std::size_t k = 0; k < sums_.size(); ++k)
+      if (sums_[k] != 0) visit(numbers_.numbers()[k], static_cast<float>(static_cast<double>(sums_[k]) / units));
+  }
+
+ private:
+  static constexpr double units = 1 << 20; // weights are between 1 and e^8
+  DistinctNumbers numbers_;
+  std::vector<std::uint32_t> place_;
+  std::vector<std::int64_t> sums_;
+};
+
+/// Assembles rows one by one from the stars: no pair list, no global sort, and no edge within a cluster.
 class RowAssembler {
  public:
   RowAssembler(const Tetrahedralization& t, const Poles& poles, const Lists& neighbours, const Lists& samples_of,
-               const std::vector<std::uint32_t>& node_of, std::span<const float> isolated)
+               const std::vector<std::uint32_t>& node_of, std::uint32_t nodes, std::span<const float> isolated)
       : t_(t),
         poles_(poles),
         neighbours_(neighbours),
         samples_of_(samples_of),
         node_of_(node_of),
         isolated_(isolated),
-        candidates_(node_of.size()) {}
+        candidates_(node_of.size()),
+        sums_(nodes) {}
 
-  /// Appends the row of pole p; sums to supernodes are returned through `super`.
-  void append(std::uint32_t p, Rows& rows, std::array<double, 2>& super) {
-    collect(p);
+  /// Appends the row of a node, the poles `members`; sums to supernodes are returned through `super`.
+  void append(std::uint32_t node, std::span<const std::uint32_t> members, Rows& rows, std::array<double, 2>& super) {
+    sums_.clear();
     super = {0, 0};
+    for (const std::uint32_t p : members) add_edges_of(node, p, super);
     row_.clear();
-    for (const std::uint32_t q : candidates_.numbers()) {
-      const auto opposite =
-          std::find_if(opposite_.begin(), opposite_.end(), [&](const Opposite& o) { return o.pole == q; });
-      const double w = opposite != opposite_.end() ? weight_of_pair(opposite->sample, p, q)
-                                                   : same_weight(poles_.sphere.raw()[p], poles_.sphere.raw()[q]);
-      if (w == 0) continue;
-      const std::uint32_t node = node_of_[q];
-      if (node == outside_node)
-        super[0] += w;
-      else if (node == inside_node)
-        super[1] += w;
-      else
-        row_.emplace_back(node, static_cast<float>(w));
-    }
+    sums_.for_each([&](std::uint32_t other, float w) { row_.emplace_back(other, w); });
     std::sort(row_.begin(), row_.end());
-    for (const auto& [node, w] : row_) {
-      rows.column.push_back(node);
+    for (const auto& [other, w] : row_) {
+      rows.column.push_back(other);
       rows.weight.push_back(w);
     }
   }
@@ -108,6 +187,24 @@ class RowAssembler {
     }
   };
 
+  void add_edges_of(std::uint32_t own, std::uint32_t p, std::array<double, 2>& super) {
+    collect(own, p);
+    for (const std::uint32_t q : candidates_.numbers()) {
+      const auto opposite =
+          std::find_if(opposite_.begin(), opposite_.end(), [&](const Opposite& o) { return o.pole == q; });
+      const double w = opposite != opposite_.end() ? weight_of_pair(opposite->sample, p, q)
+                                                   : same_weight(poles_.sphere.raw()[p], poles_.sphere.raw()[q]);
+      if (w == 0) continue;
+      const std::uint32_t node = node_of_[q];
+      if (node == outside_node)
+        super[0] += w;
+      else if (node == inside_node)
+        super[1] += w;
+      else
+        sums_.add(node, w);
+    }
+  }
+
   double weight_of_pair(std::uint32_t sample, std::uint32_t p, std::uint32_t q) const {
     const Sphere &a = poles_.sphere.raw()[p], &b = poles_.sphere.raw()[q];
     const Vec3& s = t_.positions.raw()[sample];
@@ -118,11 +215,11 @@ class RowAssembler {
     return w * trust_in_isolated(shorter, static_cast<double>(isolated_[sample]), at_outside);
   }
 
-  void collect(std::uint32_t p) {
+  void collect(std::uint32_t own, std::uint32_t p) {
     candidates_.clear();
     opposite_.clear();
     const auto add = [&](PoleIndex q) {
-      if (q.valid() && q.value != p && node_of_[q.value] != no_node) candidates_.add(q.value);
+      if (q.valid() && node_of_[q.value] != no_node && node_of_[q.value] != own) candidates_.add(q.value);
     };
     for (const std::uint32_t s : samples_of_[p]) {
       const PolePair& pair = poles_.of_sample.raw()[s];
@@ -147,6 +244,7 @@ class RowAssembler {
   const std::vector<std::uint32_t>& node_of_;
   std::span<const float> isolated_;
   DistinctNumbers candidates_;
+  WeightTable sums_;
   std::vector<Opposite> opposite_;
   std::vector<std::pair<std::uint32_t, float>> row_;
 };
@@ -159,11 +257,44 @@ void repel_supernodes(SignedGraph& graph) {
   graph.supernode_weight[0][1] = graph.supernode_weight[1][0] = -std::max(sum, 1.0);
 }
 
+/// Gives the poles that are nodes (0 before) their numbers, by the first pole of each. \return how many nodes
+std::uint32_t number_nodes(const Poles& poles, const Lists& neighbours, const Lists& samples_of, bool contract,
+                           std::span<const float> isolated, const Threads& threads,
+                           std::vector<std::uint32_t>& node_of) {
+  std::uint32_t nodes = 0;
+  if (!contract) {
+    for (std::uint32_t& node : node_of)
+      if (node < inside_node) node = nodes++;
+    return nodes;
+  }
+  Contraction clusters(poles, neighbours, samples_of, node_of, isolated, threads);
+  for (std::uint32_t p = 0; p < node_of.size(); ++p) {
+    if (node_of[p] >= inside_node) continue;
+    const std::uint32_t first = clusters.first_of(p);
+    node_of[p] = first == p ? nodes++ : node_of[first];
+  }
+  return nodes;
+}
+
+/// The poles of each node, increasing.
+Lists members_of(const std::vector<std::uint32_t>& node_of, std::uint32_t nodes) {
+  Lists lists;
+  lists.begin.assign(nodes + 1, 0);
+  for (const std::uint32_t node : node_of)
+    if (node < inside_node) ++lists.begin[node + 1];
+  for (std::size_t i = 0; i < nodes; ++i) lists.begin[i + 1] += lists.begin[i];
+  lists.item.resize(lists.begin.back());
+  std::vector<std::uint64_t> cursor(lists.begin.begin(), lists.begin.end() - 1);
+  for (std::uint32_t p = 0; p < node_of.size(); ++p)
+    if (node_of[p] < inside_node) lists.item[cursor[node_of[p]]++] = p;
+  return lists;
+}
+
 } // namespace
 
 PoleGraph pole_graph(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& known,
-                     std::span<const std::uint8_t> left_out, std::span<const float> isolated, const Threads& threads) {
-  PoleGraph result;
+                     std::span<const std::uint8_t> left_out, std::span<const float> isolated, bool contract,
+                     const Threads& threads) {
   std::vector<std::uint32_t> node_of(poles.tetrahedron.size(), no_node);
   for (std::uint32_t p = 0; p < poles.tetrahedron.size(); ++p) {
     const TetrahedronIndex tetrahedron = poles.tetrahedron.raw()[p];
@@ -171,17 +302,17 @@ PoleGraph pole_graph(const Tetrahedralization& t, const VertexStars& stars, cons
       node_of[p] = outside_node;
     else if (known[tetrahedron] == Label::inside)
       node_of[p] = inside_node;
-    else if (left_out.empty() || !left_out[tetrahedron.value]) {
-      node_of[p] = result.pole.size();
-      result.pole.raw().push_back(PoleIndex{p});
-    }
+    else if (left_out.empty() || !left_out[tetrahedron.value])
+      node_of[p] = 0;
   }
   const bool some_inside = std::any_of(known.begin(), known.end(), [](Label l) { return l == Label::inside; });
   const std::size_t supernodes = some_inside ? 2 : 1;
-  const std::uint32_t nodes = result.pole.size();
   const Lists neighbours = sample_neighbours(t, stars, threads);
   const Lists samples_of = samples_of_poles(poles);
+  const std::uint32_t nodes = number_nodes(poles, neighbours, samples_of, contract, isolated, threads, node_of);
+  const Lists members = members_of(node_of, nodes);
 
+  PoleGraph result;
   SignedGraph& graph = result.graph;
   graph.row_begin.assign(nodes + 1, 0);
   graph.supernodes.assign(supernodes, {std::vector<float>(nodes, 0.0f)});
@@ -189,11 +320,11 @@ PoleGraph pole_graph(const Tetrahedralization& t, const VertexStars& stars, cons
   const std::size_t block = block_with_table(nodes);
   std::vector<Rows> blocks((nodes + block - 1) / block);
   for_blocks(threads, nodes, block, [&](std::size_t first, std::size_t last, std::size_t b) {
-    RowAssembler assembler(t, poles, neighbours, samples_of, node_of, isolated);
+    RowAssembler assembler(t, poles, neighbours, samples_of, node_of, nodes, isolated);
     std::array<double, 2> super{};
     for (std::size_t i = first; i < last; ++i) {
       const std::size_t before = blocks[b].column.size();
-      assembler.append(result.pole.raw()[i].value, blocks[b], super);
+      assembler.append(static_cast<std::uint32_t>(i), members[i], blocks[b], super);
       graph.row_begin[i + 1] = blocks[b].column.size() - before;
       for (std::size_t k = 0; k < supernodes; ++k) graph.supernodes[k].weight[i] = static_cast<float>(super[k]);
     }
@@ -208,6 +339,9 @@ PoleGraph pole_graph(const Tetrahedralization& t, const VertexStars& stars, cons
     blocks[b] = {};
   });
   if (supernodes == 2) repel_supernodes(graph);
+  result.node = IndexedArray<PoleIndex, NodeIndex>(poles.tetrahedron.size());
+  for (std::uint32_t p = 0; p < node_of.size(); ++p)
+    if (node_of[p] < inside_node) result.node.raw()[p] = NodeIndex{node_of[p]};
   return result;
 }
 

@@ -33,27 +33,43 @@ struct TetrahedronPair {
   TetrahedronIndex first, second;
 };
 
+/// Where the cell of a sample leaves the cloud: the mean direction of the centres of its tetrahedra at the cube. A cell
+/// at a sharp corner leaves it in several directions at right angles (Amenta and Bern 1999).
+Vec3 way_out(const Tetrahedralization& t, const Vec3& s, std::span<const TetrahedronIndex> star,
+             const Centres& centres) {
+  Vec3 sum;
+  for (const TetrahedronIndex i : star) {
+    if (!t.touches_cube(i)) continue;
+    const Vec3 way = centres[i] - s;
+    const double length = norm(way);
+    if (length > 0) sum = sum + (1 / length) * way;
+  }
+  return sum;
+}
+
 /// The farthest circumcentre, and the farthest at more than 90 degrees from it. Stars are in increasing
 /// order, so the strict comparison leaves ties to the smaller index.
-TetrahedronPair pole_tetrahedra(const Vec3& s, std::span<const TetrahedronIndex> star, const Centres& centres) {
+TetrahedronPair pole_tetrahedra(const Tetrahedralization& t, const Vec3& s, std::span<const TetrahedronIndex> star,
+                                const Centres& centres, Weights weights) {
   TetrahedronPair pair;
   double farthest = -1;
-  for (const TetrahedronIndex t : star) {
-    const double d = squared_norm(centres[t] - s);
+  for (const TetrahedronIndex i : star) {
+    const double d = squared_norm(centres[i] - s);
     if (d > farthest) {
       farthest = d;
-      pair.first = t;
+      pair.first = i;
     }
   }
   if (!pair.first.valid()) return pair; // no centre is finite
-  const Vec3 direction = centres[pair.first] - s;
+  const bool leaves = weights == Weights::evidence && t.touches_cube(pair.first);
+  const Vec3 direction = leaves ? way_out(t, s, star, centres) : centres[pair.first] - s;
   farthest = -1;
-  for (const TetrahedronIndex t : star) {
-    const Vec3 offset = centres[t] - s;
+  for (const TetrahedronIndex i : star) {
+    const Vec3 offset = centres[i] - s;
     const double d = squared_norm(offset);
     if (d > farthest && dot(offset, direction) < 0) {
       farthest = d;
-      pair.second = t;
+      pair.second = i;
     }
   }
   return pair;
@@ -107,7 +123,7 @@ void widen_pairs(const Tetrahedralization& t, std::span<const float> reach, cons
 
 } // namespace
 
-Poles find_poles(const Tetrahedralization& t, const VertexStars& stars, std::span<const float> reach,
+Poles find_poles(const Tetrahedralization& t, const VertexStars& stars, std::span<const float> reach, Weights weights,
                  const Threads& threads) {
   const bool some_reach = std::any_of(reach.begin(), reach.end(), [](float r) { return r > 0; });
   std::optional<PointTree> tree;
@@ -117,7 +133,7 @@ Poles find_poles(const Tetrahedralization& t, const VertexStars& stars, std::spa
   std::vector<TetrahedronPair> pairs(t.sample_count);
   for_each_index(threads, t.sample_count, [&](std::size_t i) {
     const SampleIndex s{static_cast<std::uint32_t>(i)};
-    pairs[i] = pole_tetrahedra(t.positions[s], stars[s], centres);
+    pairs[i] = pole_tetrahedra(t, t.positions[s], stars[s], centres, weights);
   });
   if (tree) widen_pairs(t, reach, *tree, centres, pairs, threads);
   Poles poles;

@@ -15,6 +15,8 @@ namespace {
 constexpr double max_growth = 30;
 // An outlier is lonely: its nearest sample is farther away than the surface's samples are from each other.
 constexpr double max_loneliness = 1.5;
+// Isolated samples passed by are tips, and no outliers, when they are at most so many of those on the surface.
+constexpr double share_of_tips = 0.005;
 // Beside outliers so much of the share.
 constexpr double share_beside_outliers = 0.4;
 
@@ -94,13 +96,14 @@ RecoveryCounts recover_samples(const Tetrahedralization& t, const VertexStars& s
     if (!recovery.is_passed_by(SampleIndex{i})) continue;
     passed.push_back(SampleIndex{i});
   }
-  // Many such samples are outliers, or noise on either side of the surface, and best left out. Where only
-  // isolated ones are many, the others may come: few outliers stand close to their neighbours.
+  // Isolated samples are tips of thin parts where they are few, outliers otherwise; of the others many passed by are
+  // noise on either side.
   const double on_surface = static_cast<double>(t.sample_count - passed.size());
-  if (static_cast<double>(passed.size()) > max_share * on_surface) {
-    std::erase_if(passed, [&](SampleIndex s) { return !isolated.empty() && isolated[s.value] > 0; });
-    if (static_cast<double>(passed.size()) > share_beside_outliers * max_share * on_surface) return {};
-  }
+  const bool many = static_cast<double>(passed.size()) > max_share * on_surface;
+  const auto is_isolated = [&](SampleIndex s) { return !isolated.empty() && isolated[s.value] > 0; };
+  const auto lonely = std::count_if(passed.begin(), passed.end(), is_isolated);
+  if (static_cast<double>(lonely) > share_of_tips * on_surface) std::erase_if(passed, is_isolated);
+  if (many && static_cast<double>(passed.size()) > share_beside_outliers * max_share * on_surface) return {};
   RecoveryCounts counts;
   for (std::size_t before = passed.size() + 1; passed.size() < before;) {
     before = passed.size();

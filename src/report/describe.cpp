@@ -12,7 +12,7 @@
 #include "repair/spikes.h"
 #include "report/run.h"
 #include "samples/measures.h"
-#include "settle/centring.h"
+#include "settle/minimum_energy.h"
 #include "surface/trim.h"
 
 namespace eigencrust {
@@ -48,6 +48,12 @@ void describe(const SampleMeasures& measures, Run& run) {
   run.report().spacing = measures.around.nearest;
   run.report().grid_spacing = measures.scan_grid_spacing;
   describe_noise(measures.grid, run);
+  constexpr double least_flat = 0.02; // thin tubes have 0.05, other scans 0.4 and more
+  if (measures.model.flat_share < least_flat)
+    run.warn(
+        "the points fill a volume, hardly anywhere do they lie in a sheet: this is no surface, or its noise is as "
+        "large as its parts; do not trust the result. Give the points of the surface only, or --noise with the "
+        "standard deviation of the noise");
 }
 
 void describe(const Tetrahedralization& t, Run& run) { run.count("tetrahedra", t.tetrahedra.size()); }
@@ -91,8 +97,11 @@ void describe(const PoleLabels& labels, Run& run) {
   run.count("left_to_stage_two", static_cast<double>(labels.left_to_stage_two));
 }
 
-void describe(const CentringCounts& counts, Run& run) {
-  run.count("relabelled", static_cast<double>(counts.relabelled));
+void describe(const MinimumLabels& labels, Run& run) {
+  run.count("undecided", static_cast<double>(labels.undecided));
+  run.count("clusters", static_cast<double>(labels.clusters));
+  run.count("largest", static_cast<double>(labels.largest));
+  run.count("energy", labels.energy);
 }
 
 void describe(const ManifoldCounts& counts, Run& run) {
@@ -123,6 +132,11 @@ void describe(const Contradictions& contradictions, Run& run) {
 void describe(const std::vector<DroppedComponent>& dropped, Run& run) {
   auto& all = run.report().dropped_components;
   all.insert(all.end(), dropped.begin(), dropped.end());
+  constexpr double worth_a_word = 0.01; // of the rows
+  for (const DroppedComponent& piece : dropped)
+    if (static_cast<double>(piece.vertices) > worth_a_word * static_cast<double>(run.report().points))
+      run.warn("a piece with " + std::to_string(piece.vertices) +
+               " vertices was left out as a part that the samples do not bear out; --components all keeps it");
 }
 
 void describe(const UnsupportedTriangles& unsupported, Run& run) {

@@ -19,6 +19,7 @@ struct SpikeCounts;
 struct UnsupportedTriangles;
 struct LinesOfSight;
 struct Contradictions;
+struct MinimumLabels;
 struct PointResults;
 
 void describe(const Samples& samples, Run& run);
@@ -28,7 +29,7 @@ void describe(const Poles& poles, Run& run);
 void describe(const LinesOfSight& sight, Run& run);
 void describe(const Partition& partition, Run& run);
 void describe(const PoleLabels& labels, Run& run);
-void describe(const CentringCounts& counts, Run& run);
+void describe(const MinimumLabels& labels, Run& run);
 void describe(const ManifoldCounts& counts, Run& run);
 void describe(const HandleCounts& counts, Run& run);
 void describe(const RecoveryCounts& counts, Run& run);

@@ -16,8 +16,8 @@ TriangleMesh snapshot_of_poles(const Tetrahedralization& t, const Poles& poles, 
   TriangleMesh snapshot;
   std::vector<float> radius, value(poles.tetrahedron.size(), std::numeric_limits<float>::quiet_NaN());
   std::vector<double> label;
-  for (std::uint32_t node = 0; node < graph.pole.size(); ++node)
-    value[graph.pole.raw()[node].value] = partition.value[node];
+  for (std::uint32_t p = 0; p < value.size(); ++p)
+    if (graph.node.raw()[p].valid()) value[p] = partition.value[graph.node.raw()[p].value];
   for (std::uint32_t p = 0; p < poles.tetrahedron.size(); ++p) {
     snapshot.vertices.push_back(poles.sphere.raw()[p].centre + t.origin);
     radius.push_back(static_cast<float>(poles.sphere.raw()[p].radius));

@@ -1,53 +1,70 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "samples/measures.h"
-#include "samples/noise_scale.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace eigencrust {
 namespace {
 
-std::vector<float> grid_spacing_field(const Samples& samples, const Options& options, const Threads& threads,
-                                      const SampleMeasures& measures) {
-  // What is measured at the samples replaces the one ℓ of all scans, which costs detail (docs/decisions/0012).
-  if (options.grid_spacing.kind != GridSpacing::Kind::automatic || !options.local_noise)
-    return measures.scan_grid_spacing > 0
-               ? std::vector<float>(samples.positions.size(), static_cast<float>(measures.scan_grid_spacing))
-               : std::vector<float>{};
-  // Four times ℓ is the length below which a tetrahedron may be noise alone (docs/decisions/0012).
-  constexpr float grid_spacing_in_deviations = 1.2f;
-  std::vector<float> field = std::move(noise_scale(samples, measures.isolated, threads).raw());
-  for (float& value : field) value *= grid_spacing_in_deviations;
-  const bool some = std::any_of(field.begin(), field.end(), [](float value) { return value > 0; });
-  return some ? field : std::vector<float>{};
+// Four times ℓ is the length below which a tetrahedron may be noise alone (docs/decisions/0012).
+constexpr float grid_spacing_in_deviations = 1.2f;
+
+/// The noise that the options give; none: it is to be measured.
+std::optional<double> given_noise(const Options& options, double diagonal) {
+  using Kind = LengthChoice::Kind;
+  const bool by_grid = options.noise.kind == Kind::automatic;
+  const LengthChoice& choice = by_grid ? options.grid_spacing : options.noise;
+  const double unit = by_grid ? 1 / static_cast<double>(grid_spacing_in_deviations) : 1;
+  switch (choice.kind) {
+    case Kind::automatic:
+      return std::nullopt;
+    case Kind::off:
+      return 0;
+    case Kind::length:
+      return unit * choice.value;
+    case Kind::percent:
+      return unit * choice.value / 100 * diagonal;
+  }
+  return std::nullopt;
 }
 
-std::vector<float> reach_of(const std::vector<float>& grid_spacing, const Options& options, double spacing) {
-  if (!options.local_noise || grid_spacing.empty()) return {};
-  // Twice ℓ is 2.4 σ: from the middle of the noise to where it thins out on either side.
-  constexpr float reach_in_grid_spacings = 2;
-  std::vector<float> reach = grid_spacing;
+std::vector<float> reach_of(const SampleModel& model) {
+  // From the middle of the noise to where it thins out on either side.
+  constexpr float reach_in_deviations = 2.4f;
   // Beyond a dozen spacings there are thousands of samples to look at, and none knows better.
-  const float farthest = 12 * static_cast<float>(spacing);
-  for (float& r : reach) r = static_cast<double>(r) < spacing ? 0 : std::min(farthest, reach_in_grid_spacings * r);
+  constexpr float farthest_in_spacings = 12;
+  std::vector<float> reach(model.noise.size());
+  for (std::size_t i = 0; i < reach.size(); ++i)
+    if (grid_spacing_in_deviations * model.noise[i] >= model.spacing[i])
+      reach[i] = std::min(farthest_in_spacings * model.spacing[i], reach_in_deviations * model.noise[i]);
   return reach;
 }
 
 } // namespace
 
-void measure_neighbourhoods(const Samples& samples, const Options& options, const Threads& threads,
-                            SampleMeasures& measures) {
-  measures.around = sample_neighbourhoods(samples.positions.raw(), threads);
-  if (options.weights == Weights::evidence) measures.isolated = measures.around.isolated;
-}
-
-void measure_noise(const PointCloud& cloud, const Samples& samples, const Options& options, const Threads& threads,
-                   SampleMeasures& measures) {
-  if (options.questionable == Questionable::never) return;
-  measures.scan_grid_spacing =
-      resolve_grid_spacing(options.grid_spacing, samples, cloud.points, cloud.scan_index, threads);
-  measures.grid = grid_spacing_field(samples, options, threads, measures);
-  measures.reach = reach_of(measures.grid, options, measures.around.nearest);
+SampleMeasures measure(const PointCloud& cloud, const Samples& samples, const Options& options,
+                       const Threads& threads) {
+  SampleMeasures measures;
+  const bool paper = options.weights == Weights::paper;
+  const std::optional<double> noise = paper ? 0 : given_noise(options, samples.bounds.diagonal());
+  measures.model = sample_model(samples.positions.raw(), noise, threads);
+  const SampleModel& model = measures.model;
+  measures.around = {model.spacing, model.typical_spacing, model.typical_spacing, model.isolated};
+  if (options.questionable != Questionable::never)
+    measures.scan_grid_spacing =
+        resolve_grid_spacing(options.grid_spacing, samples, cloud.points, cloud.scan_index, threads);
+  if (paper) {
+    if (measures.scan_grid_spacing > 0)
+      measures.grid.assign(samples.positions.size(), static_cast<float>(measures.scan_grid_spacing));
+    return measures;
+  }
+  measures.isolated = model.isolated;
+  if (std::none_of(model.noise.begin(), model.noise.end(), [](float sigma) { return sigma > 0; })) return measures;
+  measures.reach = reach_of(model);
+  measures.grid = model.noise;
+  for (float& length : measures.grid) length *= grid_spacing_in_deviations;
+  return measures;
 }
 
 } // namespace eigencrust

@@ -16,6 +16,5 @@ struct Neighbourhoods {
   /// and its neighbourhood is not flat. 0 for all others.
   std::vector<float> isolated;
 };
-Neighbourhoods sample_neighbourhoods(std::span<const Vec3> positions, const Threads& threads);
 
 } // namespace eigencrust

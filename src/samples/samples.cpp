@@ -125,16 +125,16 @@ double median_spacing(const Samples& samples, std::span<const Vec3> points, std:
   return median(nearest);
 }
 
-double resolve_grid_spacing(const GridSpacing& option, const Samples& samples, std::span<const Vec3> points,
+double resolve_grid_spacing(const LengthChoice& option, const Samples& samples, std::span<const Vec3> points,
                             std::span<const std::uint32_t> scan_index, const Threads& threads) {
   switch (option.kind) {
-    case GridSpacing::Kind::off:
+    case LengthChoice::Kind::off:
       return 0;
-    case GridSpacing::Kind::length:
+    case LengthChoice::Kind::length:
       return option.value;
-    case GridSpacing::Kind::percent:
+    case LengthChoice::Kind::percent:
       return option.value / 100 * samples.bounds.diagonal();
-    case GridSpacing::Kind::automatic:
+    case LengthChoice::Kind::automatic:
       break;
   }
   // Merged scans disagree by their registration; a single scan gives no such sign.

@@ -2,54 +2,45 @@
 #include "settle/settle.h"
 
 #include "report/snapshots.h"
-#include "settle/centring.h"
 
 namespace eigencrust {
 namespace {
 
-TetrahedronGraph graph_of(const Scene& scene, const PoleLabels& poles, const Context& context) {
-  return context.run.stage("tetrahedron_graph", [&] {
-    return tetrahedron_graph(scene.tetrahedralization, scene.poles, poles.labels, context.options.pole_ties,
-                             scene.measures.reach, context.threads);
-  });
+Energy energy_of(const Scene& scene, const Evidence& evidence, const PoleLabels& poles, const Threads& threads) {
+  const Tetrahedralization& t = scene.tetrahedralization;
+  const NoisePlanes planes(t, scene.poles, poles.labels, scene.measures.model, threads);
+  const DataTerms data(t, scene.poles, poles, planes, scene.measures.isolated, evidence.sight.get());
+  return make_energy(t, data, evidence.named, threads);
 }
 
-Partition solution_of(SignedGraph graph, const Context& context) {
+/// §3.4 as in the paper, or with both supernodes fixed. The second graph is gone when this returns: it needs most
+/// memory of all.
+TetrahedronLabels partition_rest(const Scene& scene, const PoleLabels& poles, const Context& context) {
   const auto& [options, run, threads] = context;
-  return partition_tetrahedra(std::move(graph), options.second_stage, options.solver, threads, run.checkpoint());
-}
-
-/// The second graph is gone when this returns: it needs most memory of all.
-TetrahedronLabels label_rest(const Scene& scene, const PoleLabels& poles, const KeptSolution& kept,
-                             const Context& context) {
-  Run& run = context.run;
-  TetrahedronGraph h = graph_of(scene, poles, context);
+  TetrahedronGraph h = run.stage(
+      "tetrahedron_graph", [&] { return tetrahedron_graph(scene.tetrahedralization, poles.labels, context.threads); });
   const Partition solution = run.stage("partition_tetrahedra", [&] {
-    return kept.empty() ? solution_of(std::move(h.graph), context) : kept.adapted_to(h);
+    return partition_tetrahedra(std::move(h.graph), context.options.second_stage, context.options.solver,
+                                context.threads, context.run.checkpoint());
   });
+  if (supernodes_agree(solution))
+    run.warn("the second eigenvector puts inside and outside on the same side; use --second-stage cut");
   return run.stage("label_tetrahedra", [&] { return label_tetrahedra(h, solution, poles.labels); });
 }
 
 } // namespace
 
-KeptSolution keep_solution(const Scene& scene, const PoleLabels& poles, const Context& context) {
-  const TetrahedronGraph graph = graph_of(scene, poles, context);
-  const Partition solution =
-      context.run.stage("partition_tetrahedra", [&] { return solution_of(graph.graph, context); });
-  return {graph, solution, scene.tetrahedralization.tetrahedra.size()};
-}
-
-TetrahedronLabels settle(const Scene& scene, const PoleLabels& poles, const Context& context,
-                         const KeptSolution& kept) {
+Settled settle(const Scene& scene, const Evidence& evidence, const PoleLabels& poles, const Context& context) {
   const auto& [options, run, threads] = context;
-  TetrahedronLabels labels = label_rest(scene, poles, kept, context);
-  if (options.centring)
-    run.stage("centring", [&] {
-      return centre_in_noise(scene.tetrahedralization, scene.stars, scene.measures.reach, scene.measures.isolated,
-                             poles.labels, threads, labels);
-    });
-  run.product("tetrahedra", [&] { return snapshot_of_tetrahedra(scene.tetrahedralization, labels); });
-  return labels;
+  const Tetrahedralization& t = scene.tetrahedralization;
+  Settled settled;
+  settled.energy = run.stage("energy", [&] { return energy_of(scene, evidence, poles, threads); });
+  if (options.second_stage == SecondStage::cut)
+    settled.labels = run.stage("minimum_cut", [&] { return minimum_of(t, settled.energy, threads); }).labels;
+  else
+    settled.labels = partition_rest(scene, poles, context);
+  run.product("tetrahedra", [&] { return snapshot_of_tetrahedra(t, settled.labels); });
+  return settled;
 }
 
 } // namespace eigencrust

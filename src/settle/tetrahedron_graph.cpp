@@ -6,7 +6,6 @@
 #include <eigencrust/stages.h>
 
 #include "parallel/threads.h"
-#include "tetrahedra/circumsphere.h"
 
 namespace eigencrust {
 namespace {
@@ -18,50 +17,9 @@ double face_weight(const Tetrahedralization& t, const std::array<SampleIndex, 4>
   return std::sqrt(std::max({ab, bc, ca}) / std::min({ab, bc, ca}));
 }
 
-/// How a circumcentre c lies to the poles of one sample s of its tetrahedron: on the side of the outside
-/// pole, of the inside pole, or beside both.
-void add_ties_of_sample(const Vec3& s, const Vec3& c, const Sphere& outside, const Sphere& inside, double& out,
-                        double& in) {
-  const Vec3 towards = c - s;
-  const double length = norm(towards);
-  const auto cosine = [&](const Sphere& pole) {
-    return std::clamp(dot(pole.centre - s, towards) / (norm(pole.centre - s) * length), -1.0, 1.0);
-  };
-  // e^(4+4cos) is the weight of the pole graph's edges between tangent spheres (§3.1); relative to faces
-  // only its shape matters, so the constant e^4 goes into the factor.
-  out += std::exp(4 * cosine(outside));
-  in += std::exp(4 * cosine(inside));
-}
-
-/// Ties each unlabelled tetrahedron to the poles of its four samples (docs/decisions/0006). In the long
-/// Voronoi cell of a sample on a smooth surface every circumcentre lies on the side of one of its two
-/// poles; where the poles have opposite labels, that says on which side the tetrahedron is.
-void add_pole_ties(const Tetrahedralization& t, const Poles& poles, const Labels& labels, double factor,
-                   std::span<const float> reach, TetrahedronGraph& result, const Threads& threads) {
-  std::vector<SignedGraph::Supernode>& super = result.graph.supernodes;
-  for_each_index(threads, result.tetrahedron.size(), [&](std::size_t i) {
-    const auto& v = t.tetrahedra[result.tetrahedron.raw()[i]];
-    const Vec3 c = circumcentre(t.positions[v[0]], t.positions[v[1]], t.positions[v[2]], t.positions[v[3]]);
-    double out = 0, in = 0;
-    for (const SampleIndex s : v) {
-      // Around a sample that is off the surface by more than the spacing, directions mean nothing.
-      if (t.is_corner(s) || (!reach.empty() && reach[s.value] > 0)) continue;
-      auto [first, second] = poles.of_sample[s];
-      if (!first.valid() || !second.valid()) continue;
-      if (labels[poles.tetrahedron[first]] == Label::inside) std::swap(first, second);
-      if (labels[poles.tetrahedron[first]] != Label::outside || labels[poles.tetrahedron[second]] != Label::inside)
-        continue;
-      add_ties_of_sample(t.positions[s], c, poles.sphere[first], poles.sphere[second], out, in);
-    }
-    super[0].weight[i] += static_cast<float>(factor * out);
-    super[1].weight[i] += static_cast<float>(factor * in);
-  });
-}
-
 } // namespace
 
-TetrahedronGraph tetrahedron_graph(const Tetrahedralization& t, const Poles& poles, const Labels& labels,
-                                   double pole_ties, std::span<const float> reach, const Threads& threads) {
+TetrahedronGraph tetrahedron_graph(const Tetrahedralization& t, const Labels& labels, const Threads& threads) {
   TetrahedronGraph result;
   std::vector<std::uint32_t> node_of(t.tetrahedra.size(), NodeIndex::none);
   for (std::uint32_t i = 0; i < t.tetrahedra.size(); ++i) {
@@ -102,7 +60,6 @@ TetrahedronGraph tetrahedron_graph(const Tetrahedralization& t, const Poles& pol
       graph.weight[at] = w;
     }
   });
-  if (pole_ties > 0) add_pole_ties(t, poles, labels, pole_ties, reach, result, threads);
   // The one negative edge: as strong as all other edges of the supernodes together.
   double sum = 0;
   for (const SignedGraph::Supernode& super : graph.supernodes)

@@ -2,6 +2,9 @@
 #include "surface/surface.h"
 
 #include <eigencrust/error.h>
+#include <eigencrust/metrics.h>
+
+#include <cmath>
 
 #include "report/snapshots.h"
 #include "surface/components.h"
@@ -13,9 +16,35 @@ namespace {
 
 void require_surface(const Surface& surface) {
   if (surface.mesh.triangles.empty())
-    throw Error(
-        ErrorKind::no_surface, "surface", "every tetrahedron was labelled outside",
-        "check that the points surround a volume, take a smaller --grid-spacing or off, or name an inside point");
+    throw Error(ErrorKind::no_surface, "surface", "every tetrahedron was labelled outside",
+                "check that the points surround a volume, give less --noise or off, or name an inside point");
+}
+
+/// A scrap is no success: of so many samples some must lie on the surface, or as near as noise and spacing explain.
+void require_samples_near(const Surface& surface, const Scene& scene, const Threads& threads) {
+  constexpr double least_share = 0.05, near_in_sigmas = 3, near_in_spacings = 1;
+  const Tetrahedralization& t = scene.tetrahedralization;
+  const auto needed = static_cast<std::uint64_t>(std::ceil(least_share * t.sample_count));
+  if (surface.sample_of.size() >= needed) return;
+  const TriangleTree tree(surface.mesh);
+  const SampleModel& model = scene.measures.model;
+  const auto near = sum_blocks<std::uint64_t>(
+      threads, t.sample_count,
+      [&](std::size_t begin, std::size_t end) {
+        std::uint64_t count = 0;
+        for (std::size_t s = begin; s < end; ++s)
+          count += tree.nearest(t.positions.raw()[s]).distance <=
+                   near_in_sigmas * static_cast<double>(model.noise[s]) +
+                       near_in_spacings * static_cast<double>(model.spacing[s]);
+        return count;
+      },
+      1024);
+  if (near < needed)
+    throw Error(ErrorKind::no_surface, "surface",
+                "only " + std::to_string(near) + " of " + std::to_string(t.sample_count) +
+                    " samples lie on the surface that was found, or near it",
+                "check that the points surround a volume with walls at least a spacing thick; --components all keeps "
+                "every piece, --noise off trusts every sample");
 }
 
 void require_trimmed(const Surface& surface) {
@@ -43,6 +72,7 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   run.stage("support", [&] { measure_support(t, labels, around, grid, surface, threads); });
   run.stage("components", [&] { return filter_components(surface, options.components, t, grid, threads); });
   require_surface(surface);
+  if (options.components.kind == KeepComponents::Kind::supported) require_samples_near(surface, scene, threads);
   const bool one_sided = options.facade.has_value() || evidence.one_sided.has_value();
   UnsupportedTriangles unsupported = run.stage("trim", [&] {
     auto marked = unsupported_triangles(t, around, rays_of(cloud, scene), one_sided, surface, threads);

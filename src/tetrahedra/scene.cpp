@@ -16,21 +16,17 @@ void triangulate_and_measure(const PointCloud& cloud, Samples samples, const Con
   const auto& [options, run, threads] = context;
   SampleMeasures& measures = scene.measures;
   if (threads.size() == 1) {
-    run.stage("neighbourhoods", [&] { measure_neighbourhoods(samples, options, threads, measures); });
-    run.stage("noise", [&] { measure_noise(cloud, samples, options, threads, measures); });
+    run.stage("sample_model", [&] { measures = measure(cloud, samples, options, threads); });
     scene.tetrahedralization = run.stage("delaunay", [&] { return tetrahedralize(std::move(samples), threads); });
     return;
   }
-  double neighbourhoods = 0, noise = 0;
+  double seconds = 0;
   scene.tetrahedralization = run.stage("delaunay", [&] {
     Samples copy = samples;
-    return tetrahedralize(std::move(copy), threads, [&] {
-      neighbourhoods = seconds_of([&] { measure_neighbourhoods(samples, options, threads, measures); });
-      noise = seconds_of([&] { measure_noise(cloud, samples, options, threads, measures); });
-    });
+    return tetrahedralize(std::move(copy), threads,
+                          [&] { seconds = seconds_of([&] { measures = measure(cloud, samples, options, threads); }); });
   });
-  run.add("neighbourhoods", neighbourhoods);
-  run.add("noise", noise);
+  run.add("sample_model", seconds);
 }
 
 } // namespace
@@ -44,7 +40,8 @@ Scene make_scene(const PointCloud& cloud, const Context& context) {
   describe(scene.measures, run);
   const Tetrahedralization& t = scene.tetrahedralization;
   scene.stars = run.stage("stars", [&] { return vertex_stars(t, threads); });
-  scene.poles = run.stage("poles", [&] { return find_poles(t, scene.stars, scene.measures.reach, threads); });
+  scene.poles =
+      run.stage("poles", [&] { return find_poles(t, scene.stars, scene.measures.reach, options.weights, threads); });
   return scene;
 }
 

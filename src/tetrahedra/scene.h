@@ -18,8 +18,8 @@ struct Scene {
   Poles poles;
 };
 
-/// §3. The stages samples, delaunay, neighbourhoods, noise, stars and poles. Delaunay keeps one thread busy;
-/// the measures run beside it where there are more.
+/// §3. The stages samples, delaunay, sample_model, stars and poles. Delaunay keeps one thread busy; the model
+/// is made beside it where there are more.
 /// \throws Error{input} where there are no tetrahedra
 Scene make_scene(const PointCloud& cloud, const Context& context);
 

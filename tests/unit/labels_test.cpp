@@ -15,11 +15,17 @@ struct FirstStage {
   explicit FirstStage(const Points& points) : p(clouds::prepare(points)) {
     const Threads threads(1);
     known = known_labels(p.t, {}, {}, {}, threads);
-    graph = pole_graph(p.t, p.stars, p.poles, known, {}, {}, threads);
+    graph = pole_graph(p.t, p.stars, p.poles, known, {}, {}, false, threads);
     partition = partition_poles(graph, {}, threads, &component);
   }
-  PoleLabels labels(GlobalSign sign, double min_agreement = 0) const {
-    return label_poles(p.t, p.stars, p.poles, graph, partition, component, known, sign, min_agreement, Threads(1));
+  PoleLabels labels(GlobalSign sign) const {
+    return label_poles(p.t, p.stars, p.poles, graph, partition, component, known, {}, sign, Threads(1));
+  }
+  /// Of the first pole that the node stands for.
+  [[nodiscard]] TetrahedronIndex tetrahedron_of(std::uint32_t node) const {
+    PoleIndex pole{0};
+    while (graph.node[pole].value != node) ++pole.value;
+    return p.poles.tetrahedron[pole];
   }
   void negate_all_but_supernodes() {
     for (float& v : partition.value) v = -v;
@@ -117,17 +123,36 @@ TEST(LabelPoles, AShellOfOutliersDoesNotTurnInsideOut) {
   EXPECT_GT(right, 20 * wrong);
 }
 
-TEST(LabelPoles, PolesThatTheirNeighboursContradictGetNoLabel) {
+TEST(LabelPoles, PolesThatTheirNeighboursContradictAreNotTrusted) {
   FirstStage stage(clouds::jittered(clouds::sphere(600), 0.01, 8));
   // One inside node turned against all of its neighbours, with a value too small to move anybody else.
   std::uint32_t node = 0;
   while (stage.partition.value[node] * stage.partition.supernode_value[0] >= 0) ++node;
   stage.partition.value[node] = -1e-6f * stage.partition.value[node];
-  const TetrahedronIndex t = stage.p.poles.tetrahedron[stage.graph.pole.raw()[node]];
-  EXPECT_EQ(stage.labels(GlobalSign::supernode, 0).labels[t], Label::outside);
-  const PoleLabels strict = stage.labels(GlobalSign::supernode, 0.8);
-  EXPECT_EQ(strict.labels[t], Label::unlabelled);
-  EXPECT_GE(strict.contradicted, 1u);
+  const TetrahedronIndex t = stage.tetrahedron_of(node);
+  const PoleLabels result = stage.labels(GlobalSign::supernode);
+  EXPECT_EQ(result.labels[t], Label::outside);
+  EXPECT_EQ(result.trust[t], 0);
+  EXPECT_EQ(result.contradicted, 1u);
+}
+
+TEST(LabelPoles, TrustIsTheAgreementOfTheNeighbours) {
+  const FirstStage stage(clouds::jittered(clouds::sphere(300), 0.05, 10));
+  const PoleLabels result = stage.labels(GlobalSign::vote);
+  ASSERT_EQ(result.trust.size(), stage.known.size());
+  const SignedGraph& graph = stage.graph.graph;
+  for (std::uint32_t node = 0; node < graph.node_count(); ++node) {
+    double sum = 0, size = 0;
+    const auto add = [&](double term) {
+      sum += term;
+      size += std::fabs(term);
+    };
+    for (std::uint64_t e = graph.row_begin[node]; e < graph.row_begin[node + 1]; ++e)
+      add(static_cast<double>(graph.weight[e]) * static_cast<double>(stage.partition.value[graph.column[e]]));
+    add(static_cast<double>(graph.supernodes[0].weight[node]) * stage.partition.supernode_value[0]);
+    const double agreement = (stage.partition.value[node] > 0 ? sum : -sum) / size;
+    EXPECT_NEAR(result.trust[stage.tetrahedron_of(node)], 255 * std::max(0.0, agreement), 0.51);
+  }
 }
 
 TEST(LabelPoles, FreeComponentsTakeTheSideOfTheirNeighboursByFace) {
@@ -136,8 +161,8 @@ TEST(LabelPoles, FreeComponentsTakeTheSideOfTheirNeighboursByFace) {
   FirstStage stage(clouds::jittered(clouds::sphere(600), 0.01, 9));
   const Labels truth = stage.labels(GlobalSign::vote).labels;
   int tried = 0;
-  for (std::uint32_t node = 0; node < stage.graph.pole.size() && tried < 10; ++node) {
-    const TetrahedronIndex t = stage.p.poles.tetrahedron[stage.graph.pole.raw()[node]];
+  for (std::uint32_t node = 0; node < stage.graph.graph.node_count() && tried < 10; ++node) {
+    const TetrahedronIndex t = stage.tetrahedron_of(node);
     int outside = 0, inside = 0;
     for (const TetrahedronIndex n : stage.p.t.neighbours[t]) {
       outside += truth[n] == Label::outside;

@@ -43,8 +43,9 @@ TEST(Options, NamesGoThereAndBack) {
   expect_round_trip<Preset>(parse_preset, {{Preset::robust, "robust"}, {Preset::paper, "paper"}});
   expect_round_trip<Eigensolver>(parse_eigensolver,
                                  {{Eigensolver::multigrid, "multigrid"}, {Eigensolver::lanczos, "lanczos"}});
-  expect_round_trip<SecondStage>(parse_second_stage,
-                                 {{SecondStage::harmonic, "harmonic"}, {SecondStage::eigenvector, "eigenvector"}});
+  expect_round_trip<SecondStage>(
+      parse_second_stage,
+      {{SecondStage::cut, "cut"}, {SecondStage::harmonic, "harmonic"}, {SecondStage::eigenvector, "eigenvector"}});
   expect_round_trip<Questionable>(
       parse_questionable,
       {{Questionable::before, "before"}, {Questionable::after, "after"}, {Questionable::never, "never"}});
@@ -61,14 +62,14 @@ TEST(Options, NamesGoThereAndBack) {
   EXPECT_EQ(to_string(ManifoldRule::paper), "paper");
 }
 
-TEST(Options, GridSpacing) {
-  using Kind = GridSpacing::Kind;
+TEST(Options, LengthChoice) {
+  using Kind = LengthChoice::Kind;
   const auto expect = [](const std::string& text, Kind kind, double value) {
-    const GridSpacing spacing = parse_grid_spacing(text);
+    const LengthChoice spacing = parse_length_choice("grid spacing", text);
     EXPECT_EQ(spacing.kind, kind) << text;
     EXPECT_EQ(spacing.value, value) << text;
-    EXPECT_EQ(parse_grid_spacing(to_string(spacing)).value, value) << text;
-    EXPECT_EQ(parse_grid_spacing(to_string(spacing)).kind, kind) << text;
+    EXPECT_EQ(parse_length_choice("noise", to_string(spacing)).value, value) << text;
+    EXPECT_EQ(parse_length_choice("noise", to_string(spacing)).kind, kind) << text;
   };
   expect("auto", Kind::automatic, 0);
   expect("off", Kind::off, 0);
@@ -78,7 +79,7 @@ TEST(Options, GridSpacing) {
   expect("0.1", Kind::length, 0.1);
   expect("2.5%", Kind::percent, 2.5);
   for (const char* wrong : {"", "%", "0", "0%", "-1", "-1%", "nan", "inf", "1mm", "1 ", " 1", "1%%", "++1", "AUTO"})
-    EXPECT_THAT(refusal([&] { parse_grid_spacing(wrong); }), testing::HasSubstr("auto")) << wrong;
+    EXPECT_THAT(refusal([&] { parse_length_choice("noise", wrong); }), testing::HasSubstr("auto")) << wrong;
 }
 
 TEST(Options, Components) {
@@ -121,11 +122,6 @@ TEST(Options, ThePapersPresetIsThePaper) {
   EXPECT_EQ(paper.second_stage, SecondStage::eigenvector);
   EXPECT_EQ(paper.questionable, Questionable::after);
   EXPECT_EQ(paper.global_sign, GlobalSign::supernode);
-  EXPECT_EQ(paper.min_agreement, 0);
-  EXPECT_EQ(paper.pole_ties, 0);
-  EXPECT_EQ(paper.recover_share, 0);
-  EXPECT_EQ(paper.crossing_count, 2u); // "more than once"
-  EXPECT_EQ(paper.behind_count, 0u);
   EXPECT_TRUE(paper.manifold);
   EXPECT_EQ(paper.manifold_rule, ManifoldRule::paper);
   EXPECT_EQ(paper.components.kind, KeepComponents::Kind::all);
@@ -136,16 +132,22 @@ TEST(Options, WhatIsOutOfRangeIsRefused) {
   using Change = std::function<void(Options&)>;
   const std::vector<Change> changes{
       [](Options& o) {
-        o.grid_spacing = {GridSpacing::Kind::length, 0};
+        o.grid_spacing = {LengthChoice::Kind::length, 0};
       },
       [](Options& o) {
-        o.grid_spacing = {GridSpacing::Kind::length, -1};
+        o.grid_spacing = {LengthChoice::Kind::length, -1};
       },
       [](Options& o) {
-        o.grid_spacing = {GridSpacing::Kind::percent, nan};
+        o.grid_spacing = {LengthChoice::Kind::percent, nan};
       },
       [](Options& o) {
-        o.grid_spacing = {GridSpacing::Kind::percent, infinity};
+        o.grid_spacing = {LengthChoice::Kind::percent, infinity};
+      },
+      [](Options& o) {
+        o.noise = {LengthChoice::Kind::length, 0};
+      },
+      [](Options& o) {
+        o.noise = {LengthChoice::Kind::percent, nan};
       },
       [](Options& o) {
         o.components = {KeepComponents::Kind::count, 0};
@@ -157,19 +159,9 @@ TEST(Options, WhatIsOutOfRangeIsRefused) {
       [](Options& o) { o.solver.stable_share = 1.5; },
       [](Options& o) { o.solver.stable_share = nan; },
       [](Options& o) { o.solver.max_steps = 0; },
-      [](Options& o) { o.min_agreement = -0.1; },
-      [](Options& o) { o.min_agreement = 1.1; },
-      [](Options& o) { o.min_agreement = nan; },
-      [](Options& o) { o.pole_ties = -1; },
-      [](Options& o) { o.pole_ties = nan; },
-      [](Options& o) { o.pole_ties = infinity; },
-      [](Options& o) { o.recover_share = -0.1; },
-      [](Options& o) { o.recover_share = 1.1; },
-      [](Options& o) { o.recover_share = nan; },
       [](Options& o) { o.crossing_depth = -1; },
       [](Options& o) { o.crossing_depth = nan; },
       [](Options& o) { o.crossing_depth = infinity; },
-      [](Options& o) { o.crossing_count = 0; },
       [](Options& o) { o.smooth = 1001; },
       [](Options& o) { o.threads = 1025; },
       [](Options& o) {
@@ -190,8 +182,6 @@ TEST(Options, LimitsAreInRange) {
   Options options;
   options.solver.stable_share = 1;
   options.solver.max_steps = 1;
-  options.min_agreement = 1;
-  options.pole_ties = 0;
   options.smooth = 1000;
   options.threads = 1024;
   options.components = {KeepComponents::Kind::count, 1};

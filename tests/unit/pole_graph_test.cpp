@@ -19,17 +19,22 @@ double cosine(const Sphere& a, const Sphere& b) {
   return (squared_norm(a.centre - b.centre) - a.radius * a.radius - b.radius * b.radius) / (2 * a.radius * b.radius);
 }
 
+/// Pairs of neighbouring samples.
+std::set<Pair> delaunay_edges(const Prepared& p) {
+  std::set<Pair> edges;
+  for (const auto& v : p.t.tetrahedra)
+    for (const SampleIndex a : v)
+      for (const SampleIndex b : v)
+        if (a < b && !p.t.is_corner(a) && !p.t.is_corner(b)) edges.insert({a.value, b.value});
+  return edges;
+}
+
 /// The whole edge set of §3.1 from its definition, before anything is collapsed or left out.
 std::map<Pair, double> all_edges(const Prepared& p) {
   std::map<Pair, double> edges;
   const auto& of_sample = p.poles.of_sample.raw();
   const auto& sphere = p.poles.sphere.raw();
-  std::set<Pair> delaunay_edges;
-  for (const auto& v : p.t.tetrahedra)
-    for (const SampleIndex a : v)
-      for (const SampleIndex b : v)
-        if (a < b && !p.t.is_corner(a) && !p.t.is_corner(b)) delaunay_edges.insert({a.value, b.value});
-  for (const auto& [s, other] : delaunay_edges)
+  for (const auto& [s, other] : delaunay_edges(p))
     for (const PoleIndex a : {of_sample[s].first, of_sample[s].second})
       for (const PoleIndex b : {of_sample[other].first, of_sample[other].second}) {
         if (!a.valid() || !b.valid() || a == b) continue;
@@ -45,39 +50,74 @@ std::map<Pair, double> all_edges(const Prepared& p) {
 }
 
 struct Expected {
-  std::vector<std::uint32_t> pole;                    // of each node
+  std::vector<std::uint32_t> node; // of each pole, or none
+  std::uint32_t nodes = 0;
   std::map<Pair, double> edges;                       // between nodes
   std::vector<std::map<std::uint32_t, double>> super; // node -> sum
 };
 
+/// Clusters of poles that are nodes: balls of neighbouring samples that nearly coincide and are no pole pair. The
+/// smallest pole of its cluster for each, found by spreading it until nothing changes.
+std::vector<std::uint32_t> cluster_of(const Prepared& p, const std::vector<bool>& is_node,
+                                      const std::vector<float>& isolated) {
+  const auto& of_sample = p.poles.of_sample.raw();
+  const auto& sphere = p.poles.sphere.raw();
+  std::set<Pair> pole_pairs, joined;
+  for (const PolePair& pair : of_sample)
+    if (pair.second.valid()) pole_pairs.insert(std::minmax(pair.first.value, pair.second.value));
+  for (const auto& [s, other] : delaunay_edges(p)) {
+    if (!isolated.empty() && (isolated[s] > 0 || isolated[other] > 0)) continue;
+    for (const PoleIndex a : {of_sample[s].first, of_sample[s].second})
+      for (const PoleIndex b : {of_sample[other].first, of_sample[other].second}) {
+        if (!a.valid() || !b.valid() || a == b || !is_node[a.value] || !is_node[b.value]) continue;
+        const Pair pair = std::minmax(a.value, b.value);
+        if (cosine(sphere[a.value], sphere[b.value]) < -0.98 && !pole_pairs.count(pair)) joined.insert(pair);
+      }
+  }
+  std::vector<std::uint32_t> cluster(is_node.size());
+  for (std::uint32_t i = 0; i < cluster.size(); ++i) cluster[i] = i;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& [a, b] : joined) {
+      if (cluster[a] == cluster[b]) continue;
+      cluster[a] = cluster[b] = std::min(cluster[a], cluster[b]);
+      changed = true;
+    }
+  }
+  return cluster;
+}
+
 Expected expected_graph(const Prepared& p, const Labels& known, const std::vector<std::uint8_t>& left_out,
-                        std::size_t supernodes) {
+                        std::size_t supernodes, bool contract = false) {
   Expected e;
   e.super.resize(supernodes);
-  std::map<std::uint32_t, std::uint32_t> node_of;
+  const std::uint32_t poles = p.poles.tetrahedron.size();
   const auto label = [&](std::uint32_t pole) { return known[p.poles.tetrahedron.raw()[pole]]; };
-  for (std::uint32_t pole = 0; pole < p.poles.tetrahedron.size(); ++pole) {
+  std::vector<bool> is_node(poles);
+  for (std::uint32_t pole = 0; pole < poles; ++pole) {
     const bool out = !left_out.empty() && left_out[p.poles.tetrahedron.raw()[pole].value];
-    if (label(pole) != Label::unlabelled || out) continue;
-    node_of[pole] = static_cast<std::uint32_t>(e.pole.size());
-    e.pole.push_back(pole);
+    is_node[pole] = label(pole) == Label::unlabelled && !out;
   }
+  const auto cluster = cluster_of(p, is_node, std::vector<float>(contract ? 0 : p.t.sample_count, 1.0f));
+  e.node.assign(poles, NodeIndex::none);
+  for (std::uint32_t pole = 0; pole < poles; ++pole)
+    if (is_node[pole]) e.node[pole] = cluster[pole] == pole ? e.nodes++ : e.node[cluster[pole]];
   for (const auto& [ends, w] : all_edges(p)) {
     for (const auto& [a, b] : {ends, Pair{ends.second, ends.first}}) {
-      if (!node_of.count(a)) continue;
-      if (label(b) == Label::outside) e.super[0][node_of[a]] += w;
-      if (label(b) == Label::inside) e.super[1][node_of[a]] += w;
-      if (node_of.count(b)) e.edges[{node_of[a], node_of[b]}] = w;
+      if (!is_node[a]) continue;
+      if (label(b) == Label::outside) e.super[0][e.node[a]] += w;
+      if (label(b) == Label::inside) e.super[1][e.node[a]] += w;
+      if (is_node[b] && e.node[a] != e.node[b]) e.edges[{e.node[a], e.node[b]}] += w;
     }
   }
   return e;
 }
 
 void expect_equal(const PoleGraph& g, const Expected& e) {
-  ASSERT_EQ(g.pole.size(), e.pole.size());
-  for (std::uint32_t i = 0; i < e.pole.size(); ++i) EXPECT_EQ(g.pole.raw()[i].value, e.pole[i]);
+  ASSERT_EQ(g.node.size(), e.node.size());
+  for (std::uint32_t i = 0; i < e.node.size(); ++i) EXPECT_EQ(g.node.raw()[i].value, e.node[i]);
   ASSERT_EQ(g.graph.column.size(), e.edges.size());
-  ASSERT_EQ(g.graph.node_count(), e.pole.size());
+  ASSERT_EQ(g.graph.node_count(), e.nodes);
   for (std::uint32_t i = 0; i < g.graph.node_count(); ++i)
     for (std::uint64_t k = g.graph.row_begin[i]; k < g.graph.row_begin[i + 1]; ++k) {
       const std::uint32_t j = g.graph.column[k];
@@ -86,7 +126,7 @@ void expect_equal(const PoleGraph& g, const Expected& e) {
       }
       const auto at = e.edges.find({i, j});
       ASSERT_NE(at, e.edges.end()) << i << " " << j;
-      EXPECT_NEAR(g.graph.weight[k] / at->second, 1, 1e-5);
+      EXPECT_NEAR(g.graph.weight[k], at->second, 1e-5 * (1 + std::fabs(at->second)));
     }
   ASSERT_EQ(g.graph.supernodes.size(), e.super.size());
   for (std::size_t s = 0; s < e.super.size(); ++s)
@@ -101,14 +141,14 @@ TEST(PoleGraph, EqualsTheEdgeSetOfTheDefinition) {
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
     const Prepared p = clouds::prepare(clouds::random_box(30 + 10 * seed, seed));
     const Labels known = known_of(p);
-    expect_equal(pole_graph(p.t, p.stars, p.poles, known, {}, {}, Threads(1)), expected_graph(p, known, {}, 1));
+    expect_equal(pole_graph(p.t, p.stars, p.poles, known, {}, {}, false, Threads(1)), expected_graph(p, known, {}, 1));
   }
 }
 
 TEST(PoleGraph, OnASurfaceTheSupernodeRepelsTheInside) {
   const Prepared p = clouds::prepare(clouds::jittered(clouds::sphere(60), 0.02, 5));
   const Labels known = known_of(p);
-  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, {}, Threads(1));
+  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, {}, false, Threads(1));
   expect_equal(g, expected_graph(p, known, {}, 1));
   double smallest = 0;
   for (const float w : g.graph.supernodes[0].weight) smallest = std::min(smallest, static_cast<double>(w));
@@ -121,10 +161,10 @@ TEST(PoleGraph, LeftOutPolesAreNoNodes) {
   clouds::Random random(7);
   std::vector<std::uint8_t> left_out(p.t.tetrahedra.size());
   for (auto& flag : left_out) flag = random.uniform() < 0.3;
-  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, left_out, {}, Threads(1));
+  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, left_out, {}, false, Threads(1));
   expect_equal(g, expected_graph(p, known, left_out, 1));
   const PoleGraph none =
-      pole_graph(p.t, p.stars, p.poles, known, std::vector<std::uint8_t>(left_out.size(), 1), {}, Threads(1));
+      pole_graph(p.t, p.stars, p.poles, known, std::vector<std::uint8_t>(left_out.size(), 1), {}, false, Threads(1));
   EXPECT_EQ(none.graph.node_count(), 0u);
 }
 
@@ -137,7 +177,7 @@ TEST(PoleGraph, InsidePointsMakeASecondSupernode) {
   const Vec3 middle = clouds::centroid(p.t, p.poles.tetrahedron[pole]) + p.t.origin;
   const Labels known = known_of(p, {middle});
   ASSERT_EQ(known[p.poles.tetrahedron[pole]], Label::inside);
-  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, {}, Threads(1));
+  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, {}, false, Threads(1));
   expect_equal(g, expected_graph(p, known, {}, 2));
   double sum = 0;
   for (const auto& super : g.graph.supernodes)
@@ -151,7 +191,7 @@ TEST(PoleGraph, WeightsStayWithinTheirRanges) {
   // A lattice has poles shared by many samples and spheres that touch: cosines at their limits.
   for (const Points& points : {clouds::lattice(4, 4, 4), clouds::sphere(200), clouds::random_box(200, 9)}) {
     const Prepared p = clouds::prepare(points);
-    const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known_of(p), {}, {}, Threads(1));
+    const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known_of(p), {}, {}, false, Threads(1));
     for (const float w : g.graph.weight) {
       const double size = std::fabs(static_cast<double>(w));
       EXPECT_LE(size, std::exp(8.0) * (1 + 1e-6));
@@ -160,25 +200,64 @@ TEST(PoleGraph, WeightsStayWithinTheirRanges) {
   }
 }
 
+TEST(PoleGraph, ContractedItIsTheSumOverClusters) {
+  std::size_t contracted = 0;
+  for (const Points& points :
+       {clouds::jittered(clouds::sphere(80), 0.01, 11), clouds::jittered(clouds::sphere(150), 0.002, 12),
+        clouds::random_box(60, 13), clouds::jittered(clouds::lattice(3, 4, 5), 0.01, 14)}) {
+    const Prepared p = clouds::prepare(points);
+    const Labels known = known_of(p);
+    const Expected e = expected_graph(p, known, {}, 1, true);
+    contracted += expected_graph(p, known, {}, 1).nodes - e.nodes;
+    expect_equal(pole_graph(p.t, p.stars, p.poles, known, {}, {}, true, Threads(2)), e);
+    clouds::Random random(15);
+    std::vector<std::uint8_t> left_out(p.t.tetrahedra.size());
+    for (auto& flag : left_out) flag = random.uniform() < 0.3;
+    expect_equal(pole_graph(p.t, p.stars, p.poles, known, left_out, {}, true, Threads(1)),
+                 expected_graph(p, known, left_out, 1, true));
+  }
+  EXPECT_GT(contracted, 50u);
+}
+
+TEST(PoleGraph, IsolatedSamplesContractNothing) {
+  const Prepared p = clouds::prepare(clouds::jittered(clouds::sphere(150), 0.005, 16));
+  const Labels known = known_of(p);
+  clouds::Random random(17);
+  std::vector<float> isolated(p.t.sample_count, 0.0f);
+  for (float& radius : isolated) radius = random.uniform() < 0.5 ? 0.5f : 0.0f;
+  std::vector<bool> is_node;
+  for (const TetrahedronIndex t : p.poles.tetrahedron) is_node.push_back(known[t] == Label::unlabelled);
+  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, isolated, true, Threads(1));
+  const auto cluster = cluster_of(p, is_node, isolated), of_all = cluster_of(p, is_node, {});
+  EXPECT_NE(cluster, of_all);
+  for (std::uint32_t i = 0; i < cluster.size(); ++i)
+    for (std::uint32_t j = 0; j < i; ++j)
+      if (is_node[i] && is_node[j]) {
+        ASSERT_EQ(g.node.raw()[i] == g.node.raw()[j], cluster[i] == cluster[j]) << i << " " << j;
+      }
+}
+
 TEST(PoleGraph, IsSymmetricAndTheSameForAnyThreads) {
   const Points points = clouds::random_box(1500, 10); // several blocks of nodes
   const Prepared p = clouds::prepare(points);
   const Labels known = known_of(p);
-  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, {}, Threads(1));
-  std::map<Pair, float> entries;
-  for (std::uint32_t i = 0; i < g.graph.node_count(); ++i)
-    for (std::uint64_t k = g.graph.row_begin[i]; k < g.graph.row_begin[i + 1]; ++k)
-      entries[{i, g.graph.column[k]}] = g.graph.weight[k];
-  for (const auto& [ends, w] : entries) {
-    EXPECT_NE(ends.first, ends.second);
-    EXPECT_EQ(w, entries.at({ends.second, ends.first}));
-  }
-  for (const unsigned threads : {2u, 3u}) {
-    const PoleGraph other = pole_graph(p.t, p.stars, p.poles, known, {}, {}, Threads(threads));
-    EXPECT_EQ(other.graph.row_begin, g.graph.row_begin);
-    EXPECT_EQ(other.graph.column, g.graph.column);
-    EXPECT_EQ(other.graph.weight, g.graph.weight);
-    EXPECT_EQ(other.graph.supernodes[0].weight, g.graph.supernodes[0].weight);
+  for (const bool contract : {false, true}) {
+    const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, {}, contract, Threads(1));
+    std::map<Pair, float> entries;
+    for (std::uint32_t i = 0; i < g.graph.node_count(); ++i)
+      for (std::uint64_t k = g.graph.row_begin[i]; k < g.graph.row_begin[i + 1]; ++k)
+        entries[{i, g.graph.column[k]}] = g.graph.weight[k];
+    for (const auto& [ends, w] : entries) {
+      EXPECT_NE(ends.first, ends.second);
+      EXPECT_EQ(w, entries.at({ends.second, ends.first}));
+    }
+    for (const unsigned threads : {2u, 3u}) {
+      const PoleGraph other = pole_graph(p.t, p.stars, p.poles, known, {}, {}, contract, Threads(threads));
+      EXPECT_EQ(other.graph.row_begin, g.graph.row_begin);
+      EXPECT_EQ(other.graph.column, g.graph.column);
+      EXPECT_EQ(other.graph.weight, g.graph.weight);
+      EXPECT_EQ(other.graph.supernodes[0].weight, g.graph.supernodes[0].weight);
+    }
   }
 }
 

@@ -174,7 +174,7 @@ TEST(Spacing, AutomaticGridSpacingIsOffForASingleScan) {
 
 TEST(Spacing, GridSpacingAsToldInLengthOrPercent) {
   const Samples samples = prepare_samples(five, Threads(1));
-  using Kind = GridSpacing::Kind;
+  using Kind = LengthChoice::Kind;
   EXPECT_EQ(resolve_grid_spacing({Kind::off, 0}, samples, five, {}, Threads(1)), 0);
   EXPECT_EQ(resolve_grid_spacing({Kind::length, 0.125}, samples, five, {}, Threads(1)), 0.125);
   EXPECT_DOUBLE_EQ(resolve_grid_spacing({Kind::percent, 5}, samples, five, {}, Threads(1)), 0.05 * std::sqrt(48.0));

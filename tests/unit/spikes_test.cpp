@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "clouds.h"
+#include "models.h"
 #include "parallel/threads.h"
 #include "repair/spikes.h"
-#include "samples/neighbourhoods.h"
 
 namespace eigencrust {
 namespace {
@@ -120,7 +120,7 @@ TEST(Spikes, StayWhereTheTipIsNotAlone) {
 }
 
 TEST(Spikes, ShortOnesAndSureOnesStay) {
-  Spike near({0.1, 0.05, 1.5}, 1); // 6 spacings: a support of 0.2
+  Spike near({0.1, 0.05, 1.4}, 1); // at most 13 spacings: a support of 0.11
   near.neighbourhoods.isolated[near.tip.value] = 1;
   near.expect_uncut();
 
@@ -182,7 +182,7 @@ struct Fin {
 };
 
 TEST(Spikes, FinsToLonelyGroupsAreCut) {
-  Fin fin(12);
+  Fin fin(40);
   ASSERT_EQ(extract_surface(fin.p.t, fin.labels.labels(), Threads(1)).mesh.vertices.size(), 2001u);
   EXPECT_EQ(fin.cut(), 1u);
   EXPECT_EQ(fin.labels[fin.fin[0]], Label::outside);

@@ -5,8 +5,8 @@
 
 #include "clouds.h"
 #include "evidence/contradictions.h"
+#include "models.h"
 #include "parallel/threads.h"
-#include "samples/neighbourhoods.h"
 #include "shapes.h"
 #include "surface/trim.h"
 

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What the samples say of themselves: how close they stand, how noisy they are, which of them stand alone.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <eigencrust/types.h>
+
+#include "parallel/threads.h"
+#include "samples/place_model.h"
+
+namespace eigencrust {
+
+/// One model for all stages (not in the paper; docs/decisions/0024). Everything is local: nothing that one part of the
+/// cloud says decides for another. Lengths in the unit of the input.
+struct SampleModel {
+  /// The side of the square that one sample of an even sampling stands for; of isolated samples that of the surface
+  /// nearest to them.
+  std::vector<float> spacing;
+  /// Standard deviation of the noise, 0 where there is none to be told from curvature; smooth in space.
+  std::vector<float> noise;
+  /// Distance to the 20th nearest sample where a sample is isolated: 2.5 times as lonely as the samples of the
+  /// surface nearest to it, and in no flat neighbourhood. 0 for all others.
+  std::vector<float> isolated;
+  /// Where the samples are noisy, see below: the middle of the samples, one for each run of them along the curve.
+  /// Empty where there is no such place.
+  std::vector<MeanPlane> plane;
+  double typical_spacing = 0; ///< median, for people
+  /// Share of the places measured around which some neighbourhood is flat; 1 where there are too few to tell.
+  double flat_share = 1;
+
+  static constexpr std::uint32_t run = 8; ///< longer runs are as wide as the tip of an ear
+  /// Is the noise so large beside the spacing that no single sample sees both sides?
+  [[nodiscard]] bool is_noisy(SampleIndex s) const {
+    constexpr float noisy_in_spacings = 0.6f;
+    return noise[s.value] > noisy_in_spacings * spacing[s.value];
+  }
+};
+
+/// \param positions distinct, in the order of a space-filling curve
+/// \param noise of all samples where it is known; none: it is measured
+SampleModel sample_model(std::span<const Vec3> positions, std::optional<double> noise, const Threads& threads);
+
+} // namespace eigencrust

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What the samples and the lines of sight say of the side of one tetrahedron.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <eigencrust/stages.h>
+
+#include "settle/noise_planes.h"
+
+namespace eigencrust {
+
+/// Costs in units of a face's weight.
+struct DataTerm {
+  float outside = 0; ///< what it costs to be inside
+  float inside = 0;  ///< what it costs to be outside
+};
+
+/// Below the spacing the poles speak: on a smooth surface every circumcentre lies on the side of one of the two poles
+/// of its sample. Where samples are noisy the distance from the local mean plane does. Lines of sight count each
+/// (none of it is in the paper; docs/decisions/0026).
+class DataTerms {
+ public:
+  /// \param isolated samples where it is > 0 say nothing; may be empty \param sight may be null
+  DataTerms(const Tetrahedralization& tetrahedralization, const Poles& poles, const PoleLabels& labels,
+            const NoisePlanes& planes, std::span<const float> isolated, const SightLabels* sight)
+      : t_(tetrahedralization), poles_(poles), labels_(labels), planes_(planes), isolated_(isolated), sight_(sight) {}
+
+  [[nodiscard]] DataTerm operator()(TetrahedronIndex i) const;
+
+ private:
+  void add_ties(SampleIndex s, TetrahedronIndex i, const Vec3& centre, DataTerm& sum) const;
+  void add_heights(TetrahedronIndex i, DataTerm& sum) const;
+  void add_lines(TetrahedronIndex i, DataTerm& sum) const;
+  [[nodiscard]] bool has_plane(SampleIndex s) const { return !t_.is_corner(s) && planes_.has(s); }
+
+  const Tetrahedralization& t_;
+  const Poles& poles_;
+  const PoleLabels& labels_;
+  const NoisePlanes& planes_;
+  std::span<const float> isolated_;
+  const SightLabels* sight_;
+};
+
+} // namespace eigencrust
