@@ -12,7 +12,6 @@
 #endif
 
 #include "command.h"
-#include "removed_options.h"
 
 namespace {
 
@@ -102,7 +101,6 @@ int run(const cli::Arguments& all) {
     std::cerr << overview;
     return static_cast<int>(ErrorKind::usage);
   }
-  reject_removed_options(all);
   const std::string& first = all.words.front();
   if (first == "--help" || first == "-h" || first == "help") {
     std::cout << overview << "\nOptions of reconstruct:\n\n";

@@ -109,7 +109,7 @@ Result Session::label(std::span<const Vec3> outside_points, std::span<const Vec3
     first = kept_->adapted_to(evidence);
   });
   const auto poles = label_poles(scene, evidence, kept_->solved, first, context);
-  auto labels = repair(scene, evidence, poles, settle(scene, evidence, poles, context), context);
+  auto labels = repair(scene, evidence, settle(scene, evidence, poles, context), context);
   auto surface = make_surface(cloud, scene, evidence, labels, context);
   auto points = point_results(scene, surface, context);
   result.mesh = finish(std::move(surface), cloud, scene, context);

@@ -43,13 +43,13 @@ struct Report {
   std::vector<std::string> command;
   std::vector<InputFile> files;
   std::uint64_t points = 0, duplicates = 0, nonfinite = 0;
-  double spacing = 0; ///< median side of the square that a sample stands for
+  double spacing = 0; ///< median distance of a sample to its nearest sample
   Box3 bounds;        ///< of the finite points
   Options options;
   std::vector<StageReport> stages;
   std::vector<PartitionReport> partitions;
   MeshSummary mesh;
-  double grid_spacing = 0; ///< the ℓ of the scans or the one given, used with the paper's weights; 0: off
+  double grid_spacing = 0; ///< the ℓ that was used; 0: off
   std::vector<DroppedComponent> dropped_components;
   std::uint64_t undecided_nodes = 0;
   std::uint64_t sight_lines = 0;        ///< from samples to their sensors; 0: no sensor is known

@@ -170,16 +170,15 @@ TetrahedronLabels label_tetrahedra(const TetrahedronGraph& graph, const Partitio
 /// Both supernodes on one side: the vector is useless.
 bool supernodes_agree(const Partition& partition);
 
-/// §3.5: relabels tetrahedra until the surface is a manifold. With the paper's rule labels only go from
-/// inside to outside; with `cheapest` a tetrahedron may once go the other way, so both end. What is `known` gives way
-/// only where nothing else does.
+/// §3.5: relabels tetrahedra from inside to outside until the surface is a manifold. What is `known` gives way only
+/// where nothing else does.
 struct ManifoldCounts {
   std::uint64_t edges = 0, vertices = 0; ///< repairs of either kind
   std::uint64_t relabelled = 0;          ///< tetrahedra
   std::uint64_t overruled = 0;           ///< tetrahedra that are not what they are known to be
 };
 ManifoldCounts make_manifold(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
-                             const Labels& known, ManifoldRule rule, TetrahedronLabels& labels, const Threads& threads,
+                             const Labels& known, TetrahedronLabels& labels, const Threads& threads,
                              const Checkpoint& checkpoint = {});
 
 /// §3: the faces between inside and outside, counter-clockwise seen from outside; sample_of[v] is the

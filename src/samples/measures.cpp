@@ -51,12 +51,12 @@ SampleMeasures measure(const PointCloud& cloud, const Samples& samples, const Op
   measures.model = sample_model(samples.positions.raw(), noise, threads);
   const SampleModel& model = measures.model;
   measures.around = {model.spacing, model.typical_spacing, model.typical_spacing, model.isolated};
-  if (options.questionable != Questionable::never)
+  const auto n = samples.positions.size();
+  if (paper) {
+    if (options.questionable == Questionable::never) return measures;
     measures.scan_grid_spacing =
         resolve_grid_spacing(options.grid_spacing, samples, cloud.points, cloud.scan_index, threads);
-  if (paper) {
-    if (measures.scan_grid_spacing > 0)
-      measures.grid.assign(samples.positions.size(), static_cast<float>(measures.scan_grid_spacing));
+    if (measures.scan_grid_spacing > 0) measures.grid.assign(n, static_cast<float>(measures.scan_grid_spacing));
     return measures;
   }
   measures.isolated = model.isolated;

@@ -51,7 +51,7 @@ void DataTerms::add_heights(TetrahedronIndex i, DataTerm& sum) const {
   double height = 0;
   int planes = 0;
   for (const SampleIndex s : t_.tetrahedra[i]) {
-    if (!has_plane(s) || !planes_.is_near(s, centroid)) continue;
+    if (!has_plane(s)) continue;
     height += planes_.height(s, centroid);
     ++planes;
   }

@@ -48,10 +48,10 @@ test_interrupt_in_partition() {
   expect_prompt_end partition_poles
 }
 
-test_interrupt_in_the_energy() {
+test_interrupt_in_second_partition() {
   sphere 300000 >big.xyz
-  interrupt_at energy
-  expect_prompt_end energy
+  interrupt_at partition_tetrahedra
+  expect_prompt_end partition_tetrahedra
 }
 
 test_interrupt_in_validation() {

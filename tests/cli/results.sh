@@ -152,7 +152,7 @@ test_presets() {
     expect 0 check "$preset.ply"
   done
   equal "second stage" "$(value paper.json /options/second_stage)" eigenvector
-  equal "second stage" "$(value robust.json /options/second_stage)" cut
+  equal "second stage" "$(value robust.json /options/second_stage)" harmonic
   # A preset is a start; options go before it.
   expect 0 cloud.xyz -o mesh.ply --preset paper --second-stage harmonic --report report.json
   equal "second stage" "$(value report.json /options/second_stage)" harmonic

@@ -23,7 +23,7 @@ test_one_small_cloud() {
     number speed.json "$key"
   done
   for key in seconds/0 median ratio user_seconds/0 after_delaunay ratio_after_delaunay peak_memory_bytes \
-    bytes_per_point steps/poles stages/0/seconds/0 stages/0/ratio; do
+    bytes_per_point steps/poles steps/tetrahedra stages/0/seconds/0 stages/0/ratio; do
     number speed.json "/cases/0/whole/0/$key"
     number speed.json "/cases/0/whole/1/$key"
   done

@@ -142,14 +142,3 @@ test_sense_is_checked_before_work() {
   expect_error 2 "preset" missing.xyz -o mesh.ply --preset none
   expect_error 2 "mesh.docx" missing.xyz -o mesh.docx
 }
-
-test_options_that_went_say_what_replaced_them() {
-  local option
-  sphere 300 >cloud.xyz
-  for option in --local-noise --no-centring --close-handles --min-agreement=0.5 --pole-ties --recover-share \
-    --crossing-count --behind-count; do
-    expect_error 2 "$option is no longer an option" cloud.xyz -o mesh.ply "$option"
-  done
-  expect_error 2 "use --noise" cloud.xyz -o mesh.ply --no-local-noise
-  expect_files cloud.xyz
-}

@@ -166,9 +166,10 @@ TEST(Reports, SayWhatWasDone) {
   const Report& report = result.report;
   EXPECT_EQ(report.points, 1000u);
   EXPECT_NEAR(report.spacing, 3.5 / std::sqrt(1000.0), 0.03);
-  EXPECT_EQ(report.grid_spacing, 0);       // a single scan
-  ASSERT_EQ(report.partitions.size(), 1u); // the tetrahedra get a cut
+  EXPECT_EQ(report.grid_spacing, 0); // a single scan
+  EXPECT_EQ(report.partitions.size(), 2u);
   EXPECT_EQ(report.partitions[0].stage, "poles");
+  EXPECT_EQ(report.partitions[1].stage, "tetrahedra");
   EXPECT_GT(report.seconds, 0);
   EXPECT_GT(report.peak_memory_bytes, 0u);
   EXPECT_EQ(result.labels.size(), result.tetrahedralization.tetrahedra.size());

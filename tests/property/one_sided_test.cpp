@@ -10,8 +10,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "models.h"
 #include "parallel/threads.h"
+#include "models.h"
 #include "support.h"
 
 namespace eigencrust {

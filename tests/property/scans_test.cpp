@@ -84,10 +84,8 @@ TEST(Scans, VerticesOfCleanMeshesComeBack) {
     const PointCloud cloud = read_point_cloud(file);
     const Result result = reconstruct(cloud);
     expect_sound(result);
-    // A part of the angel whose neck is thinner than its samples' distance comes off (docs/decisions/0026, open).
-    const bool is_angel = genus == 1;
-    EXPECT_LE(result.report.mesh.components, is_angel ? 2u : 1u);
-    EXPECT_LE(result.report.mesh.genus, genus);
+    EXPECT_EQ(result.report.mesh.components, 1u);
+    EXPECT_EQ(result.report.mesh.genus, genus);
     EXPECT_GE(static_cast<double>(result.report.mesh.vertices), 0.999 * static_cast<double>(cloud.points.size()));
     const double volume = std::fabs(validate(read_mesh(file), {.self_intersections = false}).volume); // horse: inward
     EXPECT_NEAR(result.report.mesh.volume / volume, 1, 0.01);

@@ -43,9 +43,8 @@ TEST(Options, NamesGoThereAndBack) {
   expect_round_trip<Preset>(parse_preset, {{Preset::robust, "robust"}, {Preset::paper, "paper"}});
   expect_round_trip<Eigensolver>(parse_eigensolver,
                                  {{Eigensolver::multigrid, "multigrid"}, {Eigensolver::lanczos, "lanczos"}});
-  expect_round_trip<SecondStage>(
-      parse_second_stage,
-      {{SecondStage::cut, "cut"}, {SecondStage::harmonic, "harmonic"}, {SecondStage::eigenvector, "eigenvector"}});
+  expect_round_trip<SecondStage>(parse_second_stage,
+                                 {{SecondStage::harmonic, "harmonic"}, {SecondStage::eigenvector, "eigenvector"}});
   expect_round_trip<Questionable>(
       parse_questionable,
       {{Questionable::before, "before"}, {Questionable::after, "after"}, {Questionable::never, "never"}});

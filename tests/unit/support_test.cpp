@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "clouds.h"
-#include "models.h"
 #include "parallel/threads.h"
+#include "models.h"
 #include "surface/components.h"
 #include "surface/support.h"
 

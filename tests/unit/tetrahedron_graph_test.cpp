@@ -88,7 +88,8 @@ TEST(TetrahedronGraph, SupernodesRepelAsMuchAsTheyAttract) {
 
 TEST(TetrahedronGraph, OfNothingOpenIsEmpty) {
   const Prepared p = clouds::prepare(clouds::random_box(30, 8));
-  const TetrahedronGraph h = tetrahedron_graph(p.t, Labels(p.t.tetrahedra.size(), Label::outside), Threads(1));
+  const TetrahedronGraph h =
+      tetrahedron_graph(p.t, Labels(p.t.tetrahedra.size(), Label::outside), Threads(1));
   EXPECT_EQ(h.graph.node_count(), 0u);
   EXPECT_EQ(h.graph.supernodes.size(), 2u);
 }

@@ -5,8 +5,8 @@
 
 #include "clouds.h"
 #include "evidence/contradictions.h"
-#include "models.h"
 #include "parallel/threads.h"
+#include "models.h"
 #include "shapes.h"
 #include "surface/trim.h"
 
