@@ -31,6 +31,7 @@ constexpr std::array<Removed, 8> removed{
 void reject_removed_options(const Arguments& arguments) {
   for (const std::string& word : arguments.words) {
     std::string_view name = word;
+    if (name == "--") return; // what follows are files
     if (!name.starts_with("--")) continue;
     name.remove_prefix(name.starts_with("--no-") ? 5 : 2);
     name = name.substr(0, name.find('='));

@@ -92,7 +92,7 @@ SightCrossings sight_crossings(const Tetrahedralization& tetrahedralization, con
 struct SightRule {
   Weights weights = Weights::evidence;
   std::span<const float> isolated =
-      {}; ///< of each sample, see samples/neighbourhoods.h; tetrahedra at those are not made inside
+      {}; ///< of each sample, see samples/sample_model.h; tetrahedra at those are not made inside
 };
 /// §3.1: `known`, and outside for the tetrahedra without a label that enough lines cross, more than there are
 /// samples right in front of them. Lines that cross what more samples lie in front of than lines cross are not

@@ -22,7 +22,7 @@ void describe_noise(std::vector<float> grid_spacing, Run& run) {
   if (grid_spacing.empty()) return;
   for (const auto& [name, share] :
        {std::pair{"grid_spacing_q10", 0.1}, std::pair{"grid_spacing_median", 0.5}, std::pair{"grid_spacing_q90", 0.9}})
-    run.count("noise", name, static_cast<double>(quantile(grid_spacing, share)));
+    run.count("sample_model", name, static_cast<double>(quantile(grid_spacing, share)));
 }
 
 /// What the options promise and the mesh is not.
@@ -87,7 +87,7 @@ void describe(const Partition& partition, Run& run) {
     run.warn("the solver of the " + entry.stage + " stopped before the signs settled (residual " +
              std::to_string(partition.residual) + ")");
   if (entry.stage == "tetrahedra" && supernodes_agree(partition))
-    run.warn("the second eigenvector puts inside and outside on the same side; use --second-stage harmonic");
+    run.warn("the second eigenvector puts inside and outside on the same side; use --second-stage cut");
 }
 
 void describe(const PoleLabels& labels, Run& run) {

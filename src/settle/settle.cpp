@@ -23,8 +23,6 @@ TetrahedronLabels partition_rest(const Scene& scene, const PoleLabels& poles, co
     return partition_tetrahedra(std::move(h.graph), context.options.second_stage, context.options.solver,
                                 context.threads, context.run.checkpoint());
   });
-  if (supernodes_agree(solution))
-    run.warn("the second eigenvector puts inside and outside on the same side; use --second-stage cut");
   return run.stage("label_tetrahedra", [&] { return label_tetrahedra(h, solution, poles.labels); });
 }
 

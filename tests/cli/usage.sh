@@ -152,4 +152,6 @@ test_options_that_went_say_what_replaced_them() {
   done
   expect_error 2 "use --noise" cloud.xyz -o mesh.ply --no-local-noise
   expect_files cloud.xyz
+  # Behind -- there are only files.
+  expect_error 3 "--centring" -o mesh.ply -- --centring
 }
