@@ -13,34 +13,72 @@ constexpr double least_gap_in_deviations = 5;
 // A few stray points are no sheet.
 constexpr double least_share = 1.0 / 6;
 
-using Quadric = Eigen::Matrix<double, 6, 1>;
+// Six terms of z(x, y), and how much higher the upper sheet is.
+using Fit = Eigen::Matrix<double, 7, 1>;
 
-/// Heights over the best quadric z(x, y): what both sheets bend alike is taken out.
-std::vector<double> offsets_from_quadric(std::span<const Vec3> points, std::span<const std::uint32_t> index,
-                                         const LocalFrame& frame) {
-  const double scale = std::sqrt(frame.variance[2]);
-  const auto terms = [&](const Vec3& d) {
-    const double x = dot(d, frame.axis[1]) / scale, y = dot(d, frame.axis[2]) / scale;
-    Quadric q;
-    q << 1, x, y, x * x, x * y, y * y;
-    return q;
-  };
-  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
-  Quadric right = Quadric::Zero();
-  for (const std::uint32_t i : index) {
-    const Vec3 d = points[i] - frame.mean;
-    const Quadric q = terms(d);
-    normal += q * q.transpose();
-    right += dot(d, frame.axis[0]) * q;
+/// Heights over the best quadric that both sheets share.
+class SheetFit {
+ public:
+  SheetFit(std::span<const Vec3> points, std::span<const std::uint32_t> index, const LocalFrame& frame) {
+    const double scale = std::sqrt(frame.variance[2]);
+    for (const std::uint32_t i : index) {
+      const Vec3 d = points[i] - frame.mean;
+      const double x = dot(d, frame.axis[1]) / scale, y = dot(d, frame.axis[2]) / scale;
+      Fit terms;
+      terms << 1, x, y, x * x, x * y, y * y, 0;
+      terms_.push_back(terms);
+      height_.push_back(dot(d, frame.axis[0]));
+    }
   }
-  const Quadric fit = normal.ldlt().solve(right);
-  std::vector<double> offsets;
-  offsets.reserve(index.size());
-  for (const std::uint32_t i : index) {
-    const Vec3 d = points[i] - frame.mean;
-    offsets.push_back(dot(d, frame.axis[0]) - fit.dot(terms(d)));
+
+  void set_upper(std::size_t k, bool upper) { terms_[k][6] = upper ? 1 : 0; }
+  /// \return how much higher the upper sheet is; 0 while none is set
+  double fit() {
+    Eigen::Matrix<double, 7, 7> normal = Eigen::Matrix<double, 7, 7>::Zero();
+    Fit right = Fit::Zero();
+    for (std::size_t k = 0; k < terms_.size(); ++k) {
+      normal += terms_[k] * terms_[k].transpose();
+      right += height_[k] * terms_[k];
+    }
+    if (!(normal(6, 6) > 0)) normal(6, 6) = 1;
+    fit_ = normal.ldlt().solve(right);
+    return fit_[6];
   }
-  return offsets;
+  /// Over the lower sheet.
+  [[nodiscard]] double offset(std::size_t k) const { return height_[k] - fit_.head<6>().dot(terms_[k].head<6>()); }
+  /// Deviation from the own sheet.
+  [[nodiscard]] double deviation() const {
+    double squares = 0;
+    for (std::size_t k = 0; k < terms_.size(); ++k) {
+      const double residual = height_[k] - fit_.dot(terms_[k]);
+      squares += residual * residual;
+    }
+    return std::sqrt(squares / static_cast<double>(terms_.size()));
+  }
+  [[nodiscard]] std::size_t size() const { return terms_.size(); }
+
+ private:
+  std::vector<Fit> terms_;
+  std::vector<double> height_;
+  Fit fit_ = Fit::Zero();
+};
+
+/// Where the sorted values fall into two parts with the least squares within; the smallest value of the upper part.
+double best_split(std::vector<double> z) {
+  std::sort(z.begin(), z.end());
+  const std::size_t n = z.size();
+  double sum = 0;
+  for (const double v : z) sum += v;
+  double below = 0, best = -1, split = z.front();
+  for (std::size_t k = 1; k < n; ++k) {
+    below += z[k - 1];
+    const double apart = (sum - below) / static_cast<double>(n - k) - below / static_cast<double>(k);
+    const double between = static_cast<double>(k) * static_cast<double>(n - k) * apart * apart;
+    if (between <= best) continue;
+    best = between;
+    split = z[k];
+  }
+  return split;
 }
 
 } // namespace
@@ -48,28 +86,24 @@ std::vector<double> offsets_from_quadric(std::span<const Vec3> points, std::span
 std::optional<double> deviation_within_sheets(std::span<const Vec3> points, std::span<const std::uint32_t> index,
                                               const LocalFrame& frame) {
   if (!(frame.variance[1] > 0)) return std::nullopt;
-  std::vector<double> z = offsets_from_quadric(points, index, frame);
-  std::sort(z.begin(), z.end());
-  const std::size_t n = z.size();
-  double sum = 0, squares = 0;
-  for (const double v : z) {
-    sum += v;
-    squares += v * v;
+  SheetFit sheets(points, index, frame);
+  double gap = sheets.fit();
+  std::size_t upper = 0;
+  // The first quadric follows the sheets a little; with them told apart it does no more.
+  for (int round = 0; round < 2; ++round) {
+    std::vector<double> offsets(sheets.size());
+    for (std::size_t k = 0; k < offsets.size(); ++k) offsets[k] = sheets.offset(k);
+    const double split = best_split(offsets);
+    upper = 0;
+    for (std::size_t k = 0; k < offsets.size(); ++k) {
+      sheets.set_upper(k, offsets[k] >= split);
+      upper += offsets[k] >= split;
+    }
+    gap = sheets.fit();
   }
-  const auto least = std::max<std::size_t>(3, static_cast<std::size_t>(least_share * static_cast<double>(n)));
-  double below = 0, best = 0, gap = 0;
-  for (std::size_t k = 1; k < n; ++k) {
-    below += z[k - 1];
-    if (k < least || n - k < least) continue;
-    const double low = below / static_cast<double>(k), high = (sum - below) / static_cast<double>(n - k);
-    const double between =
-        static_cast<double>(k) * static_cast<double>(n - k) / static_cast<double>(n) * (high - low) * (high - low);
-    if (between <= best) continue;
-    best = between;
-    gap = high - low;
-  }
-  const double within =
-      std::sqrt(std::max(0.0, (squares - sum * sum / static_cast<double>(n) - best) / static_cast<double>(n)));
+  const double least = least_share * static_cast<double>(sheets.size());
+  if (static_cast<double>(std::min(upper, sheets.size() - upper)) < least) return std::nullopt;
+  const double within = sheets.deviation();
   if (!(gap > least_gap_in_deviations * within)) return std::nullopt;
   return within;
 }

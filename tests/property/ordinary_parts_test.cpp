@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What people bring that is no statue: parts with sharp edges, thin walls, tiny bodies, noise beside none.
+#include <eigencrust/eigencrust.h>
+#include <eigencrust/error.h>
+
+#include <gmock/gmock.h>
+
+#include "clouds.h"
+
+namespace eigencrust {
+namespace {
+
+using clouds::Points;
+
+MeshSummary mesh_of(const Points& points, const Options& options = {}) {
+  const Result result = reconstruct(clouds::cloud_of(points), options);
+  EXPECT_THAT(result.report.broken_guarantees, testing::IsEmpty());
+  return result.report.mesh;
+}
+
+TEST(OrdinaryParts, GriddedBoxesAreExact) {
+  for (const unsigned n : {1u, 2u, 3u, 7u, 15u}) {
+    SCOPED_TRACE(n);
+    const MeshSummary mesh = mesh_of(clouds::cube_surface(n));
+    const double side = n;
+    EXPECT_EQ(mesh.vertices, 6 * n * n + 2);
+    EXPECT_EQ(mesh.components, 1u);
+    EXPECT_EQ(mesh.genus, 0);
+    EXPECT_NEAR(mesh.volume, side * side * side, 1e-9 * side * side * side);
+    EXPECT_NEAR(mesh.area, 6 * side * side, 1e-9 * side * side);
+  }
+}
+
+TEST(OrdinaryParts, TinyBodiesAreTheirHull) {
+  const MeshSummary prism = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 2}, {1, 0, 2}, {0, 1, 2}});
+  EXPECT_EQ(prism.vertices, 6u);
+  EXPECT_NEAR(prism.volume, 1, 1e-9);
+  const MeshSummary octahedron = mesh_of({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}});
+  EXPECT_NEAR(octahedron.volume, 4.0 / 3, 1e-9);
+}
+
+/// Two spheres one within the other, `wall` apart, with one spacing of about 0.036.
+Points hollow_ball(double wall, double noise, std::uint64_t seed) {
+  const double inner = 1 - wall;
+  Points points =
+      clouds::joined(clouds::sphere(10000), clouds::sphere(static_cast<std::size_t>(10000 * inner * inner), inner));
+  return clouds::jittered(std::move(points), noise, seed);
+}
+
+TEST(OrdinaryParts, ThinWallsAreNotFilled) {
+  for (const double wall_in_spacings : {1.5, 1.8, 3.0})
+    for (const double noise : {0.0, 0.002}) {
+      const double wall = 0.0355 * wall_in_spacings, inner = 1 - wall;
+      SCOPED_TRACE(wall_in_spacings);
+      Options options;
+      options.inside_points = {{1 - wall / 2, 0, 0}};
+      options.outside_points = {{0, 0, 0}};
+      const MeshSummary mesh = mesh_of(hollow_ball(wall, noise, 3), options);
+      EXPECT_EQ(mesh.components, 2u);
+      EXPECT_NEAR(mesh.volume / (4.1888 * (1 - inner * inner * inner)), 1, 0.03);
+    }
+}
+
+TEST(OrdinaryParts, ASheetOneSpacingThickKeepsItsSides) {
+  Points plate;
+  for (const Vec3& p : clouds::lattice(31, 31, 2)) plate.push_back(p);
+  const MeshSummary mesh = mesh_of(plate);
+  EXPECT_EQ(mesh.components, 1u);
+  EXPECT_NEAR(mesh.volume, 900, 9);
+}
+
+TEST(OrdinaryParts, ANoisyBodyLeavesACleanOneAlone) {
+  const Points clean = clouds::sphere(8000);
+  const Points noisy = clouds::moved(clouds::jittered(clouds::sphere(24000, 1), 0.06, 4), {4, 0, 0});
+  const Result result = reconstruct(clouds::cloud_of(clouds::joined(clean, noisy)));
+  EXPECT_EQ(result.report.mesh.components, 2u);
+  const auto kept =
+      std::count_if(result.mesh.vertices.begin(), result.mesh.vertices.end(), [](const Vec3& v) { return v.x < 1.5; });
+  EXPECT_GE(kept, 7920);
+  EXPECT_NEAR(result.report.mesh.volume / (2 * 4.1888), 1, 0.03);
+}
+
+TEST(OrdinaryParts, NoiseMeasuredIsReported) {
+  const Result result = reconstruct(clouds::cloud_of(clouds::jittered(clouds::sphere(20000), 0.05, 5)));
+  double reported = 0;
+  for (const StageReport& stage : result.report.stages)
+    if (stage.name == "sample_model")
+      for (const auto& [name, value] : stage.counts)
+        if (name == "grid_spacing_median") reported = value;
+  EXPECT_NEAR(reported / 1.2, 0.05 / std::sqrt(3.0), 0.01); // deviation of even noise in ±0.05
+}
+
+TEST(OrdinaryParts, PointsThatFillAVolumeGetAWarning) {
+  const Result result = reconstruct(clouds::cloud_of(clouds::random_box(6000, 6)));
+  EXPECT_THAT(result.report.warnings, testing::Contains(testing::HasSubstr("fill a volume")));
+}
+
+TEST(OrdinaryParts, AScrapIsNoSuccess) {
+  // Ground with its places in degrees and its heights in metres is next to a line: what comes out holds a few samples.
+  Points points;
+  for (int i = 0; i < 55; ++i)
+    for (int j = 0; j < 55; ++j)
+      points.push_back({8.4 + 1.4e-3 * i, 49 + 9e-4 * j, 300 + 10 * std::sin(i / 9.0) * std::cos(j / 7.0)});
+  try {
+    const Result result = reconstruct(clouds::cloud_of(points));
+    FAIL() << "a scrap of " << result.mesh.vertices.size() << " vertices passed";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::no_surface);
+    EXPECT_THAT(error.what(), testing::HasSubstr("samples lie on the surface"));
+  }
+}
+
+} // namespace
+} // namespace eigencrust
