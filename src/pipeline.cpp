@@ -34,7 +34,7 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   // §3.4: all tetrahedra, by the least energy
   auto settled = settle(scene, evidence, poles, context);
   // §3.5: a manifold
-  auto labels = repair(scene, evidence, poles, std::move(settled), context);
+  auto labels = repair(scene, evidence, std::move(settled), context);
   // §3: the faces between inside and outside
   auto surface = make_surface(cloud, scene, evidence, labels, context);
   // Which rows lie on it, and which way they look

@@ -74,7 +74,7 @@ struct Session::Kept {
   void measure_sides() {
     const PoleLabels labels =
         label_poles(scene.tetrahedralization, scene.stars, scene.poles, solved.graph, solved.partition,
-                    solved.component, evidence.labels, scene.measures.isolated, options.global_sign, threads);
+                    solved.component, evidence.labels, scene.measures.isolated(), options.global_sign, threads);
     const auto& supers = solved.partition.supernode_value;
     outside_value = supers.empty() ? 0 : static_cast<float>(labels.reversed ? -supers[0] : supers[0]);
     inside_value = supers.size() > 1 ? static_cast<float>(supers[1]) : -outside_value;
@@ -109,7 +109,7 @@ Result Session::label(std::span<const Vec3> outside_points, std::span<const Vec3
     first = kept_->adapted_to(evidence);
   });
   const auto poles = label_poles(scene, evidence, kept_->solved, first, context);
-  auto labels = repair(scene, evidence, poles, settle(scene, evidence, poles, context), context);
+  auto labels = repair(scene, evidence, settle(scene, evidence, poles, context), context);
   auto surface = make_surface(cloud, scene, evidence, labels, context);
   auto points = point_results(scene, surface, context);
   result.mesh = finish(std::move(surface), cloud, scene, context);

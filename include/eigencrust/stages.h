@@ -117,9 +117,10 @@ std::vector<std::uint8_t> questionable_tetrahedra(const Tetrahedralization& tetr
 
 /// §3.1: the signed graph on the poles with the outside supernode (0) and, when something is known to be
 /// inside, the inside supernode (1). Poles of tetrahedra in `left_out` (may be empty) are no nodes. The pole
-/// pairs of `isolated` samples (may be empty) count only as far as their cells are long. With `contract` poles of
-/// neighbouring samples whose balls nearly coincide (cos φ < -0.98) and that are no pole pair are one node; its edges
-/// are the sums of theirs (not in the paper, where an edge of weight e^8 joins them; docs/decisions/0025).
+/// pairs of `isolated` samples (may be empty) count only as far as their cells are long. With `contract` each
+/// pole is one node with the largest pole of neighbouring samples whose ball nearly coincides with its own
+/// (cos φ < -0.93) and that is not its opposite pole; the node's edges are the sums of theirs (not in the paper, where
+/// an edge of weight e^8 joins them; docs/decisions/0025).
 PoleGraph pole_graph(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
                      const Labels& known, std::span<const std::uint8_t> left_out, std::span<const float> isolated,
                      bool contract, const Threads& threads);
@@ -129,15 +130,16 @@ using Checkpoint = std::function<void(double)>;
 
 /// §3.2: the eigenvector of the smallest eigenvalue of L x = λ D x. Components of the graph that hold no
 /// supernode are solved on their own; the sign of each of those is arbitrary.
-/// \param graph     lends its edges to the solver and has them back in the end; not if an exception leaves
+/// \param reduce    nodes that one edge decides are merged before (not in the paper; docs/decisions/0025)
 /// \param component receives the component of every node, 0 being the one of the supernodes; may be null
-Partition partition_poles(PoleGraph& graph, const SolverOptions& options, const Threads& threads,
+Partition partition_poles(const PoleGraph& graph, const SolverOptions& options, bool reduce, const Threads& threads,
                           std::vector<std::uint32_t>* component = nullptr, const Checkpoint& checkpoint = {});
 
 /// §3.2: labels from the signs of the partition, added to what is known. Nodes of components without a
 /// supernode take the side that their labelled neighbours by face vote for by two thirds, else none.
 /// `trust` is the agreement Σ w x / Σ |w x| of a node's neighbours with its own sign, not below 0 (not in the paper).
-/// \param isolated see Neighbourhoods; the poles of these samples say little of the global sign; may be empty
+/// \param isolated > 0 where a sample stands alone; the poles of these samples say little of the global sign; may be
+/// empty
 struct PoleLabels {
   Labels labels;
   IndexedArray<TetrahedronIndex, std::uint8_t> trust; ///< agreement of labelled poles, 255: 1
@@ -170,16 +172,15 @@ TetrahedronLabels label_tetrahedra(const TetrahedronGraph& graph, const Partitio
 /// Both supernodes on one side: the vector is useless.
 bool supernodes_agree(const Partition& partition);
 
-/// §3.5: relabels tetrahedra until the surface is a manifold. With the paper's rule labels only go from
-/// inside to outside; with `cheapest` a tetrahedron may once go the other way, so both end. What is `known` gives way
-/// only where nothing else does.
+/// §3.5: relabels tetrahedra from inside to outside until the surface is a manifold. What is `known` gives way only
+/// where nothing else does.
 struct ManifoldCounts {
   std::uint64_t edges = 0, vertices = 0; ///< repairs of either kind
   std::uint64_t relabelled = 0;          ///< tetrahedra
   std::uint64_t overruled = 0;           ///< tetrahedra that are not what they are known to be
 };
 ManifoldCounts make_manifold(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
-                             const Labels& known, ManifoldRule rule, TetrahedronLabels& labels, const Threads& threads,
+                             const Labels& known, TetrahedronLabels& labels, const Threads& threads,
                              const Checkpoint& checkpoint = {});
 
 /// §3: the faces between inside and outside, counter-clockwise seen from outside; sample_of[v] is the

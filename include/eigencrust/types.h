@@ -217,6 +217,7 @@ struct Poles {
 
 enum class Label : std::uint8_t { unlabelled = 0, inside = 1, outside = 2 };
 using Labels = IndexedArray<TetrahedronIndex, Label>;
+inline Label other_side(Label label) { return label == Label::outside ? Label::inside : Label::outside; }
 
 /// A side and a value for every tetrahedron; the value's sign is the side (> 0 outside), its size how sure that is.
 class TetrahedronLabels {

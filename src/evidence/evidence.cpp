@@ -31,11 +31,11 @@ LinesOfSight follow_lines(const PointCloud& cloud, const Scene& scene, const Lab
                           const Threads& threads) {
   const auto& [t, rows, stars, measures, poles] = scene;
   const auto depth = crossing_depths(measures.model, options);
-  const auto lines = sight_lines(cloud, rows, t, depth, measures.isolated);
+  const auto lines = sight_lines(cloud, rows, t, depth, measures.isolated());
   LinesOfSight sight;
   if (options.detect_facade) sight.one_sided = one_sided_scan(t, lines);
   sight.crossings = sight_crossings(t, stars, lines, options.weights, named, threads);
-  const SightRule rule{options.weights, measures.isolated};
+  const SightRule rule{options.weights, measures.isolated()};
   sight.labels = line_of_sight(t, stars, lines, sight.crossings, rule, named, threads);
   return sight;
 }

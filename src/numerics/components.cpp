@@ -104,34 +104,4 @@ BorderedMatrix signed_laplacian(SignedGraph graph, const Threads& threads) {
   return m;
 }
 
-BorderedMatrix borrow_edges(SignedGraph& graph, const Threads& threads) {
-  SignedGraph lent;
-  lent.row_begin = std::move(graph.row_begin);
-  lent.column = std::move(graph.column);
-  lent.weight = std::move(graph.weight);
-  lent.supernodes = graph.supernodes;
-  lent.supernode_weight = graph.supernode_weight;
-  return signed_laplacian(std::move(lent), threads);
-}
-
-void give_back_edges(BorderedMatrix matrix, SignedGraph& graph, const Threads& threads) {
-  graph.row_begin = std::move(matrix.row_begin);
-  graph.column = std::move(matrix.column);
-  graph.weight = std::move(matrix.value);
-  for_blocks(threads, graph.node_count(), default_block, [&](std::size_t begin, std::size_t end, std::size_t) {
-    std::vector<std::pair<std::uint32_t, float>> row;
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint64_t first = graph.row_begin[i], last = graph.row_begin[i + 1];
-      for (std::uint64_t e = first; e < last; ++e) graph.weight[e] = -graph.weight[e];
-      const auto columns = graph.column.begin();
-      if (std::is_sorted(columns + static_cast<std::ptrdiff_t>(first), columns + static_cast<std::ptrdiff_t>(last)))
-        continue;
-      row.clear();
-      for (std::uint64_t e = first; e < last; ++e) row.emplace_back(graph.column[e], graph.weight[e]);
-      std::sort(row.begin(), row.end());
-      for (std::uint64_t e = first; e < last; ++e) std::tie(graph.column[e], graph.weight[e]) = row[e - first];
-    }
-  });
-}
-
 } // namespace eigencrust

@@ -28,9 +28,4 @@ Subgraph extract_component(const SignedGraph& graph, std::uint32_t component, co
 /// L of §3.2: L_ij = -w_ij, L_ii = Σ |L_ij|; supernodes form the border.
 BorderedMatrix signed_laplacian(SignedGraph graph, const Threads& threads);
 
-/// The same of a graph that lends its edges, which are most of both: it has none until give_back_edges().
-BorderedMatrix borrow_edges(SignedGraph& graph, const Threads& threads);
-/// \param matrix entries within its rows in any order
-void give_back_edges(BorderedMatrix matrix, SignedGraph& graph, const Threads& threads);
-
 } // namespace eigencrust

@@ -83,6 +83,14 @@ std::optional<Ritz> smallest_ritz(const GramSums& sums, int size) {
   return Ritz{c(0), c(1), size > 2 ? c(2) : 0.0, solver.eigenvalues()(0)};
 }
 
+double inner_product(const Vector& a, const FloatVector& b, const Threads& threads) {
+  return sum_blocks<double>(threads, a.size(), [&](std::size_t begin, std::size_t end) {
+    double part = 0;
+    for (std::size_t i = begin; i < end; ++i) part += a[i] * static_cast<double>(b[i]);
+    return part;
+  });
+}
+
 /// One level of the eigenproblem: the iterate x, the last step p, and the preconditioned residual w.
 class LobpcgLevel {
  public:
@@ -285,22 +293,14 @@ IterationResult conjugate_gradients(const SignedMultigrid& hierarchy, Vector b, 
     hierarchy.cycle(0, r, z, workspace, threads);
     // The cycle is linear to single precision only: the difference form (Polak-Ribiere) would forgive more,
     // but a few dozen steps do not need it.
-    const double rz_new = sum_blocks<double>(threads, r.size(), [&](std::size_t begin, std::size_t end) {
-      double part = 0;
-      for (std::size_t i = begin; i < end; ++i) part += r[i] * static_cast<double>(z[i]);
-      return part;
-    });
+    const double rz_new = inner_product(r, z, threads);
     const double beta = result.steps == 0 ? 0 : rz_new / rz;
     for_each_index(threads, p.size(), [&](std::size_t i) {
       p[i] = static_cast<float>(static_cast<double>(z[i]) + beta * static_cast<double>(p[i]));
     });
     rz = rz_new;
     multiply(m, p, mp, threads);
-    const double alpha = rz / sum_blocks<double>(threads, n, [&](std::size_t begin, std::size_t end) {
-                           double part = 0;
-                           for (std::size_t i = begin; i < end; ++i) part += static_cast<double>(p[i]) * mp[i];
-                           return part;
-                         });
+    const double alpha = rz / inner_product(mp, p, threads);
     if (!std::isfinite(alpha)) break;
     const Progress step = sum_blocks<Progress>(threads, p.size(), [&](std::size_t begin, std::size_t end) {
       Progress part;

@@ -18,8 +18,7 @@ IterationControl control_of(const SolverOptions& options, const Checkpoint& chec
 void take_figures(const IterationResult& result, Partition& partition);
 
 /// Eigenvectors of all components; supernodes belong to component 0.
-/// \param graph lends its edges to the solver and has them back in the end; not if an exception leaves
-Partition partition_components(SignedGraph& graph, const Components& components, const SolverOptions& options,
+Partition partition_components(SignedGraph graph, const Components& components, const SolverOptions& options,
                                const Threads& threads, const Checkpoint& checkpoint);
 
 } // namespace eigencrust

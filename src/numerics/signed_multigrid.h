@@ -50,7 +50,6 @@ class SignedMultigrid {
   [[nodiscard]] const Level& finest() const { return levels_.front(); }
 
   /// The matrix given to the constructor, entries within its rows in any order; the hierarchy is of no use then.
-  BorderedMatrix take_finest() && { return std::move(levels_.front().matrix); }
 
   [[nodiscard]] Workspace workspace() const;
   /// One symmetric cycle from zero: x ≈ M⁻¹ b on `level`. Linear (to single precision) and positive definite

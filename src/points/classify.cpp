@@ -22,7 +22,7 @@ namespace {
 // The tolerance, in local spacings and in standard deviations of the noise.
 constexpr double tolerance_in_spacings = 1.25;
 constexpr double tolerance_in_deviations = 3;
-// The grid spacing is 1.2 deviations where it is measured (docs/decisions/0012).
+// The grid spacing is 1.2 deviations where it is measured (docs/decisions/0024).
 constexpr double deviations_per_grid_spacing = 1 / 1.2;
 // A vertex is isolated when its third shortest edge is longer than so many times the median of all.
 constexpr double isolation = 3;

@@ -7,6 +7,7 @@
 #include <eigencrust/stages.h>
 
 #include "geometry/distinct_numbers.h"
+#include "numerics/weight_table.h"
 #include "parallel/compressed_rows.h"
 #include "poles/pole_weights.h"
 
@@ -70,8 +71,8 @@ bool is_pole_pair(const Poles& poles, const Lists& samples_of, std::uint32_t p, 
   });
 }
 
-/// Clusters of poles (docs/decisions/0025): balls that nearly coincide are on the same side. The smallest pole of its
-/// cluster for each.
+/// Clusters of poles (docs/decisions/0025): balls that nearly coincide are on the same side, so each pole joins the
+/// largest ball around that its own nearly coincides with.
 class Contraction {
  public:
   Contraction(const Poles& poles, const Lists& neighbours, const Lists& samples_of,
@@ -95,8 +96,17 @@ class Contraction {
             for (const PoleIndex q : {there.first, there.second}) offer(p, q);
         }
     });
+    // Upward only: a chain of balls through the noise would otherwise join one side with the other.
+    const auto is_larger = [&](std::uint32_t p, std::uint32_t q) {
+      return std::pair(poles.sphere.raw()[p].radius, q) > std::pair(poles.sphere.raw()[q].radius, p);
+    };
+    std::vector<std::uint32_t> largest(parent_);
     for (const auto& block : blocks)
-      for (const auto& [p, q] : block) unite(p, q);
+      for (auto [p, q] : block) {
+        if (is_larger(p, q)) std::swap(p, q);
+        if (is_larger(q, largest[p])) largest[p] = q;
+      }
+    for (std::uint32_t p = 0; p < largest.size(); ++p) unite(p, largest[p]);
   }
 
   std::uint32_t first_of(std::uint32_t p) {
@@ -105,8 +115,9 @@ class Contraction {
   }
 
  private:
-  // At -0.95 clusters of the raw armadillo hold poles of both sides (docs/decisions/0025).
-  static constexpr double nearly_one = -0.98;
+  // The cosine of balls that coincide. At -0.8 clusters of the raw armadillo hold poles of both sides
+  // (docs/decisions/0025).
+  static constexpr double nearly_one = -0.93;
 
   void unite(std::uint32_t p, std::uint32_t q) {
     p = first_of(p);
@@ -121,34 +132,6 @@ class Contraction {
 struct Rows {
   std::vector<std::uint32_t> column;
   std::vector<float> weight;
-};
-
-/// Sums by number. Whole units: what is added in another order gives the same.
-class WeightTable {
- public:
-  explicit WeightTable(std::size_t bound) : numbers_(bound), place_(bound) {}
-  void clear() {
-    numbers_.clear();
-    sums_.clear();
-  }
-  void add(std::uint32_t number, double weight) {
-    if (numbers_.add(number)) {
-      place_[number] = static_cast<std::uint32_t>(sums_.size());
-      sums_.push_back(0);
-    }
-    sums_[place_[number]] += std::llround(weight * units);
-  }
-  template <class Visit>
-  void for_each(Visit&& visit) const {
-    for (std::size_t k = 0; k < sums_.size(); ++k)
-      if (sums_[k] != 0) visit(numbers_.numbers()[k], static_cast<float>(static_cast<double>(sums_[k]) / units));
-  }
-
- private:
-  static constexpr double units = 1 << 20; // weights are between 1 and e^8
-  DistinctNumbers numbers_;
-  std::vector<std::uint32_t> place_;
-  std::vector<std::int64_t> sums_;
 };
 
 /// Assembles rows one by one from the stars: no pair list, no global sort, and no edge within a cluster.

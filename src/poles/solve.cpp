@@ -14,11 +14,12 @@ PoleSolution solve_poles(const Scene& scene, const Evidence& evidence, const Con
   std::span<const std::uint8_t> left_out;
   if (options.questionable == Questionable::before) left_out = solved.questionable;
   solved.graph = run.stage("pole_graph", [&] { // §3.1
-    return pole_graph(t, stars, poles, evidence.labels, left_out, measures.isolated,
+    return pole_graph(t, stars, poles, evidence.labels, left_out, measures.isolated(),
                       options.weights == Weights::evidence, threads);
   });
   solved.partition = run.stage("partition_poles", [&] { // §3.2
-    return partition_poles(solved.graph, options.solver, threads, &solved.component, run.checkpoint());
+    return partition_poles(solved.graph, options.solver, options.weights == Weights::evidence, threads,
+                           &solved.component, run.checkpoint());
   });
   return solved;
 }
@@ -28,7 +29,7 @@ PoleLabels label_poles(const Scene& scene, const Evidence& evidence, const PoleS
   const auto& [options, run, threads] = context;
   const auto& [t, rows, stars, measures, poles] = scene;
   PoleLabels result = run.stage("label_poles", [&] {
-    return label_poles(t, stars, poles, solved.graph, partition, solved.component, evidence.labels, measures.isolated,
+    return label_poles(t, stars, poles, solved.graph, partition, solved.component, evidence.labels, measures.isolated(),
                        options.global_sign, threads);
   });
   run.product("poles", [&] { return snapshot_of_poles(t, poles, solved.graph, partition, result.labels); });

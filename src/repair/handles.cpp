@@ -1,197 +1,112 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Handles that no pole vouches for are closed (not in the paper; docs/decisions/0016).
-#include <Eigen/Eigenvalues>
+// Handles as large as the noise are closed (not in the paper; docs/decisions/0016, 0027).
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <set>
 
-#include <eigencrust/stages.h>
-
+#include "repair/generators.h"
 #include "repair/handle_loops.h"
-#include "repair/handles.h"
-#include "repair/star_repair.h"
-#include "repair/surface_part.h"
+#include "tetrahedra/segment_walk.h"
 
 namespace eigencrust {
 namespace {
 
+// Noise makes tunnels and bridges as wide as this at most, in deviations. Closing one turns faces over a disc of that
+// radius, two for each sample, which cost about one each: g = 2π (16 σ / h)². Where there is no noise a handle is
+// meant.
+constexpr double noise_reach = 16;
 // Longer loops go around what is there.
 constexpr std::uint32_t longest_loop = 100;
-// Tetrahedra tried at one loop for each of its vertices; more are no small change.
-constexpr std::size_t region_per_vertex = 400;
-// A change may leave so many specks behind; the component filter takes them.
-constexpr std::int64_t tolerated_specks = 2;
-// Loops wider than so many grid spacings are no noise.
-constexpr double extent_in_grid_spacings = 96;
-// Tetrahedra with larger values are as good as labelled by the first stage.
-constexpr float sure = 0.8f;
-constexpr int max_rounds = 6;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
+// Tetrahedra of a disc for each unit of what closing the handle is worth: each costs a good part of one.
+constexpr double tetrahedra_per_worth = 8;
 class HandleClosing {
  public:
-  HandleClosing(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& first,
-                const Labels& known, std::span<const float> grid_spacing, ManifoldRule rule, TetrahedronLabels& labels,
-                const Threads& threads)
-      : t_(t),
-        stars_(stars),
-        first_(first),
-        grid_spacing_(grid_spacing),
-        labels_(labels),
-        threads_(threads),
-        repair_(t, stars, poles, known, rule, labels),
-        changed_(t.positions.size(), 0),
-        taken_(t.tetrahedra.size(), 0) {}
+  explicit HandleClosing(Moves& moves)
+      : moves_(moves), t_(moves.scene.t), stars_(moves.scene.stars), taken_(t_.tetrahedra.size(), 0) {}
 
   std::uint64_t run(const Checkpoint& checkpoint) {
     std::uint64_t closed = 0;
-    for (int round = 0; round < max_rounds; ++round) {
-      if (checkpoint) checkpoint(static_cast<double>(round) / max_rounds);
-      const std::uint64_t in_round = close_short_loops(checkpoint);
-      if (in_round == 0) break;
-      closed += in_round;
-    }
+    for (std::uint64_t in_round = 1; in_round > 0; closed += in_round) in_round = close_short_loops(checkpoint);
     return closed;
   }
 
  private:
-  using Samples = std::vector<std::uint32_t>;
+  using Loop = std::vector<std::uint32_t>;
   using Region = std::vector<TetrahedronIndex>;
-  using Journal = TetrahedronLabels::Journal;
 
   std::uint64_t close_short_loops(const Checkpoint& checkpoint) {
-    const Surface surface = extract_surface(t_, labels_.labels(), threads_);
-    std::fill(changed_.begin(), changed_.end(), 0);
+    const Surface surface = extract_surface(t_, moves_.labels().all(), moves_.scene.threads);
+    std::vector<std::uint8_t> changed(t_.positions.size(), 0);
     std::uint64_t closed = 0;
-    Samples loop;
+    Loop loop;
     for (const auto& vertices :
-         handle_loops(surface.mesh.triangles, surface.mesh.vertices.size(), longest_loop, threads_)) {
+         handle_loops(surface.mesh.triangles, surface.mesh.vertices.size(), longest_loop, moves_.scene.threads)) {
       if (checkpoint) checkpoint(0);
       loop.clear();
       for (const std::uint32_t v : vertices) loop.push_back(surface.sample_of[v].value);
       // What was changed nearby may have closed this one; the next round knows.
-      if (std::any_of(loop.begin(), loop.end(), [&](std::uint32_t s) { return changed_[s] != 0; })) continue;
-      std::sort(loop.begin(), loop.end());
-      if (!is_noise(loop) || failed_.contains(loop)) continue;
-      if (close(loop))
-        ++closed;
-      else
+      if (std::any_of(loop.begin(), loop.end(), [&](std::uint32_t s) { return changed[s] != 0; })) continue;
+      const double worth = worth_of(loop);
+      if (!(worth > 0) || failed_.count(loop) > 0) continue;
+      const Moves::Outcome best = close(loop, worth);
+      if (best.turned.empty()) {
         failed_.insert(loop);
+        continue;
+      }
+      moves_.make(best);
+      for (const std::uint32_t s : moves_.samples_of(best.turned)) changed[s] = 1;
+      ++closed;
     }
     return closed;
   }
 
-  /// Is the loop no larger than noise may make one?
-  bool is_noise(const Samples& loop) const {
-    Box3 box;
-    double noise = 0;
+  /// g: what closing a handle of this loop is worth.
+  double worth_of(const Loop& loop) const {
+    const SampleModel& model = moves_.scene.model;
+    double noise = 0, spacing = 0;
     for (const std::uint32_t s : loop) {
-      box.add(t_.positions.raw()[s]);
-      noise += static_cast<double>(grid_spacing_[s]) / static_cast<double>(loop.size());
+      noise += static_cast<double>(model.noise[s]);
+      spacing += static_cast<double>(model.spacing[s]);
     }
-    return box.diagonal() <= extent_in_grid_spacings * noise;
+    const double reach = noise_reach * noise / spacing;
+    return 2 * std::numbers::pi * reach * reach;
   }
 
-  /// Tries ever larger regions at the loop, both ways; takes the cheaper of the first that closes a handle.
-  bool close(const Samples& loop) {
-    Samples ring = loop;
-    for (int size = 0; size <= 6; ++size) {
-      if (size == 4) ring = samples_of(stars_of(loop));
-      const Region region = size == 0 || size > 3 ? stars_of(ring) : disc_of(loop, 0.5 * (1 << size));
-      if (size > 3) ring = samples_of(region);
-      if (region.size() > region_per_vertex * loop.size()) break;
-      double least = infinity;
-      Journal best;
+  /// The better of filling and cutting, of the disc alone or with the stars of the loop.
+  Moves::Outcome close(const Loop& loop, double worth) {
+    Moves::Outcome best;
+    for (const bool with_stars : {false, true}) {
+      const Region disc = disc_of(loop, with_stars);
+      if (static_cast<double>(disc.size()) > tetrahedra_per_worth * worth) break;
       for (const Label from : {Label::outside, Label::inside}) {
-        Journal flips;
-        const double price = flip_and_repair(region, from, flips);
-        repair_.undo(flips);
-        if (price >= least) continue;
-        least = price;
-        best = std::move(flips);
+        Region turned;
+        for (const TetrahedronIndex i : disc)
+          if (moves_.labels()[i] == from) turned.push_back(i);
+        if (turned.empty() || !std::all_of(turned.begin(), turned.end(), [&](auto i) { return moves_.is_open(i); }))
+          continue;
+        Moves::Outcome outcome = moves_.weigh(turned, worth);
+        if (outcome.change < best.change) best = std::move(outcome);
       }
-      if (best.empty()) continue;
-      keep(best);
-      return true;
+      if (best.change < 0) break;
     }
-    return false;
+    return best;
   }
 
-  /// Changes the sides of the open tetrahedra of the region that are `from`, and repairs what that spoils.
-  /// \return Σ |value| of what changed; infinite unless it took a handle away
-  double flip_and_repair(const Region& region, Label from, Journal& flips) {
-    for (const TetrahedronIndex i : region) {
-      if (labels_[i] != from || first_[i] != Label::unlabelled || t_.touches_cube(i)) continue;
-      if (std::fabs(labels_.value(i)) <= sure) labels_.turn(i, flips);
-    }
-    if (flips.empty()) return infinity;
-    Journal repairs;
-    repair_.hold(flips); // the repair shall not take them back
-    repair_.run(samples_of(flips), &repairs);
-    repair_.release(flips);
-    flips.insert(flips.end(), repairs.begin(), repairs.end());
-    return has_closed_one(flips) ? price_of(flips) : infinity;
-  }
-
-  bool has_closed_one(const Journal& flips) {
-    const Samples around = samples_of(flips);
-    const SurfacePart after = surface_part(t_, stars_, labels_.labels(), around);
-    labels_.undo(flips);
-    const SurfacePart before = surface_part(t_, stars_, labels_.labels(), around);
-    for (const TetrahedronIndex i : flips) labels_.turn(i);
-    const std::int64_t specks = after.closed_pieces - before.closed_pieces;
-    return specks <= tolerated_specks && specks - (after.euler - before.euler) / 2 < 0;
-  }
-
-  double price_of(const Journal& flips) const {
-    double price = 0;
-    for (const TetrahedronIndex i : flips) price += std::fabs(static_cast<double>(labels_.value(i)));
-    return price;
-  }
-
-  /// Makes the flips (undone by now) for good.
-  void keep(const Journal& flips) {
-    for (const TetrahedronIndex i : flips) {
-      labels_.turn(i);
-      for (const SampleIndex s : t_.tetrahedra[i]) changed_[s.value] = 1;
-    }
-  }
-
-  Region stars_of(const Samples& samples) {
-    Region region;
-    for (const std::uint32_t s : samples)
-      for (const TetrahedronIndex i : stars_[SampleIndex{s}]) take(i, region);
-    return release(region);
-  }
-
-  /// Tetrahedra near the flat disc that the loop bounds, thickness in edges of the loop; with their stars.
-  Region disc_of(const Samples& loop, double thickness) {
+  /// What the disc from the loop to its middle crosses: the tetrahedra at its edges, or at its samples, and those on
+  /// the ways inward.
+  Region disc_of(const Loop& loop, bool with_stars) {
     Vec3 centre;
     for (const std::uint32_t s : loop)
       centre = centre + (1.0 / static_cast<double>(loop.size())) * t_.positions[SampleIndex{s}];
-    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-    double radius = 0;
-    for (const std::uint32_t s : loop) {
-      const Vec3 d = t_.positions[SampleIndex{s}] - centre;
-      const Eigen::Vector3d e(d.x, d.y, d.z);
-      moments += e * e.transpose();
-      radius = std::max(radius, norm(d));
-    }
-    const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvectors().col(0);
-    const Vec3 normal{axis[0], axis[1], axis[2]};
-    const double edge = 2 * std::numbers::pi * radius / static_cast<double>(loop.size());
     Region region;
-    for (const std::uint32_t s : loop)
-      for (const TetrahedronIndex i : stars_[SampleIndex{s}]) take(i, region);
-    for (std::size_t k = 0; k < region.size() && region.size() <= region_per_vertex * loop.size(); ++k)
-      for (const TetrahedronIndex n : t_.neighbours[region[k]]) {
-        if (!n.valid()) continue;
-        Vec3 middle;
-        for (const SampleIndex s : t_.tetrahedra[n]) middle = middle + 0.25 * (t_.positions[s] - centre);
-        if (std::fabs(dot(middle, normal)) <= thickness * edge && norm(middle) <= radius + edge) take(n, region);
-      }
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const SampleIndex here{loop[k]}, next{loop[(k + 1) % loop.size()]};
+      for (const TetrahedronIndex i : stars_[here])
+        if (const auto& v = t_.tetrahedra[i]; with_stars || std::find(v.begin(), v.end(), next) != v.end())
+          take(i, region);
+      for (SegmentWalk walk(t_, stars_, here, centre); walk.next();) take(walk.tetrahedron(), region);
+    }
     return release(region);
   }
 
@@ -206,41 +121,17 @@ class HandleClosing {
     return std::move(region);
   }
 
-  Samples samples_of(const Region& region) const {
-    Samples samples;
-    for (const TetrahedronIndex i : region) add_samples(i, samples);
-    return sorted(samples);
-  }
-  void add_samples(TetrahedronIndex i, Samples& samples) const {
-    for (const SampleIndex s : t_.tetrahedra[i])
-      if (!t_.is_corner(s)) samples.push_back(s.value);
-  }
-  static Samples sorted(Samples& samples) {
-    std::sort(samples.begin(), samples.end());
-    samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
-    return std::move(samples);
-  }
-
+  Moves& moves_;
   const Tetrahedralization& t_;
   const VertexStars& stars_;
-  const Labels& first_;
-  std::span<const float> grid_spacing_;
-  TetrahedronLabels& labels_;
-  const Threads& threads_;
-  StarRepair repair_;
-  std::set<Samples> failed_;          ///< loops that nothing closed
-  std::vector<std::uint8_t> changed_; ///< samples, in this round
-  std::vector<std::uint8_t> taken_;   ///< tetrahedra, while a region is gathered
+  std::set<Loop> failed_;           ///< loops that nothing closed
+  std::vector<std::uint8_t> taken_; ///< tetrahedra, while a region is gathered
 };
 
 } // namespace
 
-HandleCounts close_handles(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles,
-                           const Labels& first, const Labels& known, std::span<const float> grid_spacing,
-                           ManifoldRule rule, TetrahedronLabels& labels, const Threads& threads,
-                           const Checkpoint& checkpoint) {
-  if (grid_spacing.empty()) return {}; // without noise every handle is meant
-  return {HandleClosing(t, stars, poles, first, known, grid_spacing, rule, labels, threads).run(checkpoint)};
+HandleCounts close_handles(Moves& moves, const Checkpoint& checkpoint) {
+  return {HandleClosing(moves).run(checkpoint)};
 }
 
 } // namespace eigencrust

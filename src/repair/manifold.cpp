@@ -1,85 +1,139 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// §3.5: which stars are no discs; star_repair.cpp relabels them.
+// §3.5 as in the paper: labels only go from inside to outside. star_repair.cpp has the rule by energy.
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <tuple>
 
 #include <eigencrust/stages.h>
 
 #include "parallel/threads.h"
-#include "repair/star_repair.h"
+#include "repair/unsound_stars.h"
+#include "tetrahedra/star.h"
 
 namespace eigencrust {
 namespace {
 
-/// Is what the surface cuts out of a sphere around the sample one closed curve, or nothing?
-class LinkCheck {
+class PaperRepair {
  public:
-  LinkCheck(const Tetrahedralization& t, const VertexStars& stars, const Labels& labels)
-      : t_(t), stars_(stars), labels_(labels) {}
+  PaperRepair(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& known,
+              TetrahedronLabels& labels)
+      : t_(t),
+        poles_(poles),
+        known_(known),
+        labels_(labels),
+        star_(t, stars),
+        link_(t, stars, labels.labels()),
+        waiting_(t.sample_count, 0) {}
 
-  bool is_disc(SampleIndex s) {
-    arcs_.clear();
-    for (const TetrahedronIndex i : stars_[s]) {
-      if (labels_[i] != Label::inside) continue;
-      const auto& v = t_.tetrahedra[i];
-      for (std::size_t k = 0; k < 4; ++k) {
-        if (v[k] == s) continue;
-        const TetrahedronIndex n = t_.neighbours[i][k];
-        if (n.valid() && labels_[n] == Label::inside) continue;
-        std::array<std::uint32_t, 2> ends{};
-        std::size_t end = 0;
-        for (std::size_t j = 0; j < 4; ++j)
-          if (j != k && v[j] != s) ends[end++] = v[j].value;
-        arcs_.push_back({ends[0], ends[1]});
-        arcs_.push_back({ends[1], ends[0]});
+  ManifoldCounts run(std::vector<std::uint32_t> round, const Checkpoint& checkpoint) {
+    for (const std::uint32_t s : round) waiting_[s] = 1;
+    while (!round.empty()) {
+      for (std::size_t i = 0; i < round.size(); ++i) {
+        if (checkpoint && i % 65536 == 0) checkpoint(static_cast<double>(i) / static_cast<double>(round.size()));
+        waiting_[round[i]] = 0;
+        if (!link_.is_disc(SampleIndex{round[i]})) repair(SampleIndex{round[i]});
       }
+      // Samples whose star changed after their turn come again, in increasing order.
+      round.clear();
+      std::swap(round, next_);
+      std::sort(round.begin(), round.end());
     }
-    if (arcs_.empty()) return true;
-    std::sort(arcs_.begin(), arcs_.end());
-    for (std::size_t a = 0; a < arcs_.size(); a += 2)
-      if (arcs_[a][0] != arcs_[a + 1][0] || (a > 0 && arcs_[a][0] == arcs_[a - 1][0])) return false;
-    return steps_around() == arcs_.size() / 2;
+    return counts_;
   }
 
  private:
-  /// How many arcs the curve through the first vertex has; every vertex has two.
-  std::size_t steps_around() const {
-    std::uint32_t previous = arcs_.front()[0], here = arcs_.front()[1];
-    std::size_t steps = 1;
-    while (here != arcs_.front()[0]) {
-      auto arc = std::lower_bound(arcs_.begin(), arcs_.end(), std::array<std::uint32_t, 2>{here, 0});
-      if ((*arc)[1] == previous) ++arc;
-      previous = here;
-      here = (*arc)[1];
-      ++steps;
+  void repair(SampleIndex s) {
+    star_.fill(s);
+    for (SampleIndex edge; (edge = edge_with_several_strands(star_, labels_.labels())).valid(); ++counts_.edges) {
+      star_.components(labels_.labels(), Label::inside, edge, component_);
+      drop_all_but(strongest_component());
     }
-    return steps;
+    keep_one_inside_component(s);
+    while (join_two_outside_components()) {
+    }
+  }
+
+  /// How sure the label is; what is known beforehand gives way last.
+  float magnitude(std::uint32_t i) const {
+    constexpr float known_price = 1e6f;
+    return known_[star_[i]] == Label::unlabelled ? std::fabs(labels_.value(star_[i])) : known_price;
+  }
+
+  double volume(std::uint32_t i) const {
+    const auto& [a, b, c, d] = t_.tetrahedra[star_[i]];
+    const Vec3& o = t_.positions[a];
+    return dot(cross(t_.positions[b] - o, t_.positions[c] - o), t_.positions[d] - o);
+  }
+
+  /// The component that holds the tetrahedron with the largest |value|, then volume, then smallest index.
+  std::uint32_t strongest_component() const {
+    std::uint32_t best = Star::none;
+    for (std::uint32_t i = 0; i < star_.size(); ++i) {
+      if (component_[i] == Star::none) continue;
+      if (best == Star::none || std::pair(magnitude(i), volume(i)) > std::pair(magnitude(best), volume(best))) best = i;
+    }
+    return component_[best];
+  }
+
+  void set_outside(std::uint32_t i) {
+    labels_.turn(star_[i]);
+    ++counts_.relabelled;
+    for (const SampleIndex v : t_.tetrahedra[star_[i]]) {
+      if (t_.is_corner(v) || waiting_[v.value]) continue;
+      waiting_[v.value] = 1;
+      next_.push_back(v.value);
+    }
+  }
+
+  void drop_all_but(std::uint32_t kept) {
+    for (std::uint32_t i = 0; i < star_.size(); ++i)
+      if (component_[i] != Star::none && component_[i] != kept) set_outside(i);
+  }
+
+  void keep_one_inside_component(SampleIndex s) {
+    if (star_.components(labels_.labels(), Label::inside, SampleIndex{}, component_) < 2) return;
+    const PolePair pair = poles_.of_sample[s];
+    std::uint32_t kept_pole = Star::none;
+    for (std::uint32_t i = 0; i < star_.size(); ++i) {
+      if (component_[i] == Star::none) continue;
+      const bool is_pole = (pair.first.valid() && poles_.tetrahedron[pair.first] == star_[i]) ||
+                           (pair.second.valid() && poles_.tetrahedron[pair.second] == star_[i]);
+      if (is_pole && (kept_pole == Star::none || magnitude(i) > magnitude(kept_pole))) kept_pole = i;
+    }
+    drop_all_but(kept_pole != Star::none ? component_[kept_pole] : strongest_component());
+    ++counts_.vertices;
+  }
+
+  bool join_two_outside_components() {
+    if (star_.components(labels_.labels(), Label::outside, SampleIndex{}, component_) < 2) return false;
+    const auto length = [&](std::uint32_t i) { return static_cast<double>(magnitude(i)); };
+    for (const std::uint32_t i : shortest_path(star_, component_, length)) set_outside(i);
+    ++counts_.vertices;
+    return true;
   }
 
   const Tetrahedralization& t_;
-  const VertexStars& stars_;
-  const Labels& labels_;
-  std::vector<std::array<std::uint32_t, 2>> arcs_; ///< both ways, sorted
+  const Poles& poles_;
+  const Labels& known_;
+  TetrahedronLabels& labels_;
+  Star star_;
+  LinkCheck link_;
+  std::vector<std::uint8_t> waiting_;
+  std::vector<std::uint32_t> next_; ///< those that wait for the next round
+  std::vector<std::uint32_t> component_;
+  ManifoldCounts counts_;
 };
 
 } // namespace
 
 ManifoldCounts make_manifold(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles,
-                             const Labels& known, ManifoldRule rule, TetrahedronLabels& labels, const Threads& threads,
+                             const Labels& known, TetrahedronLabels& labels, const Threads& threads,
                              const Checkpoint& checkpoint) {
-  // Most stars are sound; looking is for all threads, repairing for one.
-  constexpr std::size_t block = 4096;
-  std::vector<std::vector<std::uint32_t>> found((t.sample_count + block - 1) / block);
-  for_blocks(threads, t.sample_count, block, [&](std::size_t begin, std::size_t end, std::size_t b) {
-    LinkCheck link(t, stars, labels.labels());
-    for (std::size_t s = begin; s < end; ++s)
-      if (!link.is_disc(SampleIndex{static_cast<std::uint32_t>(s)})) found[b].push_back(static_cast<std::uint32_t>(s));
-  });
-  std::vector<std::uint32_t> unsound;
-  for (const auto& part : found) unsound.insert(unsound.end(), part.begin(), part.end());
-  ManifoldCounts counts = StarRepair(t, stars, poles, known, rule, labels).run(std::move(unsound), nullptr, checkpoint);
-  for (std::size_t i = 0; i < known.size(); ++i)
-    counts.overruled += known.raw()[i] != Label::unlabelled && known.raw()[i] != labels.labels().raw()[i];
+  ManifoldCounts counts =
+      PaperRepair(t, stars, poles, known, labels).run(unsound_stars(t, stars, labels.labels(), threads), checkpoint);
+  counts.overruled = overruled(known, labels.labels());
   return counts;
 }
 

@@ -7,9 +7,7 @@
 
 namespace eigencrust {
 
-/// The stages manifold, handles, recover and spikes, as the options say.
-/// \param poles what the first stage settled
-TetrahedronLabels repair(const Scene& scene, const Evidence& evidence, const PoleLabels& poles, Settled settled,
-                         const Context& context);
+/// The stages manifold, spikes, handles and recover; with the paper's rule, or without a manifold, less.
+TetrahedronLabels repair(const Scene& scene, const Evidence& evidence, Settled settled, const Context& context);
 
 } // namespace eigencrust

@@ -1,172 +1,65 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Spikes to isolated samples, and fins to small groups of samples far from all others, are cut off where no pole
-// vouches for them (not in the paper; docs/decisions/0013).
+// Tips: isolated samples and small groups far from all others that only long triangles join to the surface
+// (not in the paper; docs/decisions/0027).
 #include <algorithm>
-#include <cmath>
 #include <set>
 
-#include <eigencrust/stages.h>
-
-#include "repair/spikes.h"
-#include "repair/star_repair.h"
-#include "repair/surface_part.h"
-#include "surface/triangle_support.h"
+#include "repair/generators.h"
 
 namespace eigencrust {
 namespace {
 
-// All triangles at a tip are borne out less than that: edges of 12 to 25 spacings, by contrast.
-constexpr float most_support = 0.1f;
 // A group is lonely that has so few samples ...
 constexpr std::size_t most_in_group = 64;
-// ... and is so many typical distances from all others: twice what is no support at all.
+// ... and is so many spacings from all others.
 constexpr double gap_in_spacings = 20;
 
 /// Samples that stand together, increasing.
 using Group = std::vector<SampleIndex>;
 
-bool holds(const Group& group, SampleIndex s) { return std::binary_search(group.begin(), group.end(), s); }
+double gap_at(const MoveScene& scene, SampleIndex s) {
+  return gap_in_spacings * std::max(scene.model.typical_spacing, static_cast<double>(scene.model.spacing[s.value]));
+}
 
-class SpikeCutting {
- public:
-  SpikeCutting(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& first,
-               const Labels& known, const Neighbourhoods& neighbourhoods, std::span<const float> grid_spacing,
-               ManifoldRule rule, TetrahedronLabels& labels)
-      : t_(t),
-        stars_(stars),
-        first_(first),
-        labels_(labels),
-        support_(t, labels, neighbourhoods, grid_spacing),
-        repair_(t, stars, poles, known, rule, labels) {}
-
-  /// Is that a tip? It leaves the surface if the surface stays what it is otherwise.
-  bool cut(const Group& tip) {
-    if (!is_tip(tip)) return false;
-    Journal cheaper = side_of_stars(tip, Label::inside), other = side_of_stars(tip, Label::outside);
-    if (price_of(other) < price_of(cheaper)) std::swap(cheaper, other);
-    return flip(cheaper) || flip(other);
-  }
-
- private:
-  using Journal = TetrahedronLabels::Journal;
-
-  /// On the surface, with no triangle to other samples that the samples bear out.
-  bool is_tip(const Group& group) const {
-    bool on_surface = false;
-    for (const SampleIndex s : group)
-      for (const TetrahedronIndex i : stars_[s]) {
-        if (labels_[i] != Label::inside) continue;
-        const auto& v = t_.tetrahedra[i];
-        for (std::size_t k = 0; k < 4; ++k) {
-          const TetrahedronIndex n = t_.neighbours[i][k];
-          if (v[k] == s || !n.valid() || labels_[n] == Label::inside) continue;
-          const std::array<SampleIndex, 3> face{v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]};
-          if (std::all_of(face.begin(), face.end(), [&](SampleIndex f) { return holds(group, f); })) continue;
-          if (support_(face, i, n) >= most_support) return false;
-          on_surface = true;
-        }
-      }
-    return on_surface;
-  }
-
-  /// The tetrahedra of one side around the samples; none where the first stage settled one of them. What it says of a
-  /// lonely group it has from that group alone.
-  Journal side_of_stars(const Group& group, Label side) const {
-    std::vector<TetrahedronIndex> stars;
-    for (const SampleIndex s : group) stars.insert(stars.end(), stars_[s].begin(), stars_[s].end());
-    std::sort(stars.begin(), stars.end());
-    stars.erase(std::unique(stars.begin(), stars.end()), stars.end());
-    Journal flips;
-    for (const TetrahedronIndex i : stars) {
-      if (labels_[i] != side) continue;
-      if ((group.size() == 1 && first_[i] != Label::unlabelled) || t_.touches_cube(i)) return {};
-      flips.push_back(i);
-    }
-    return flips;
-  }
-
-  double price_of(const Journal& flips) const {
-    double price = 0;
-    for (const TetrahedronIndex i : flips) price += std::fabs(static_cast<double>(labels_.value(i)));
-    return price;
-  }
-
-  /// How much the surface's area would change.
-  double area_change(const Journal& flips) const {
-    double change = 0;
-    for (const TetrahedronIndex i : flips) {
-      const auto& v = t_.tetrahedra[i];
-      for (std::size_t k = 0; k < 4; ++k) {
-        const TetrahedronIndex n = t_.neighbours[i][k];
-        if (!n.valid() || std::find(flips.begin(), flips.end(), n) != flips.end()) continue;
-        const Vec3& a = t_.positions[v[(k + 1) % 4]];
-        const double area = norm(cross(t_.positions[v[(k + 2) % 4]] - a, t_.positions[v[(k + 3) % 4]] - a)) / 2;
-        change += labels_[n] == labels_[i] ? area : -area;
-      }
-    }
-    return change;
-  }
-
-  /// Changes sides where that makes the surface smaller: filling up beside a spike can reach out to the next outlier.
-  /// Takes it back if the surface is no manifold then, or has other handles or more pieces.
-  bool flip(const Journal& flips) {
-    if (flips.empty() || !(area_change(flips) < 0)) return false;
-    std::vector<std::uint32_t> around;
-    for (const TetrahedronIndex i : flips)
-      for (const SampleIndex s : t_.tetrahedra[i])
-        if (!t_.is_corner(s)) around.push_back(s.value);
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
-
-    const SurfacePart before = surface_part(t_, stars_, labels_.labels(), around);
-    for (const TetrahedronIndex i : flips) labels_.turn(i);
-    const SurfacePart after = surface_part(t_, stars_, labels_.labels(), around);
-    Journal repairs;
-    if (after.euler == before.euler && after.closed_pieces == before.closed_pieces) {
-      repair_.run(around, &repairs);
-      if (repairs.empty()) return true;
-      repair_.undo(repairs);
-    }
-    labels_.undo(flips);
-    return false;
-  }
-
-  const Tetrahedralization& t_;
-  const VertexStars& stars_;
-  const Labels& first_;
-  TetrahedronLabels& labels_;
-  TriangleSupport support_;
-  StarRepair repair_;
-};
-
-/// Corners of surface triangles with an edge that is longer than the gap.
-std::vector<SampleIndex> at_long_triangles(const Tetrahedralization& t, const Labels& labels, double gap) {
+/// Corners of surface triangles with an edge that is longer than the gap at both of its ends.
+std::vector<SampleIndex> at_long_triangles(const Moves& moves) {
+  const MoveScene& scene = moves.scene;
+  std::vector<std::vector<SampleIndex>> found((scene.t.tetrahedra.size() + default_block - 1) / default_block);
+  for_blocks(scene.threads, scene.t.tetrahedra.size(), default_block,
+             [&](std::size_t begin, std::size_t end, std::size_t block) {
+               for (TetrahedronIndex i{static_cast<std::uint32_t>(begin)}; i.value < end; ++i.value) {
+                 if (moves.labels()[i] != Label::inside) continue;
+                 const auto& v = scene.t.tetrahedra[i];
+                 const auto is_long = [&](SampleIndex a, SampleIndex b) {
+                   return !scene.t.is_corner(a) && !scene.t.is_corner(b) &&
+                          distance(scene.t.positions[a], scene.t.positions[b]) >
+                              std::min(gap_at(scene, a), gap_at(scene, b));
+                 };
+                 for (std::size_t k = 0; k < 4; ++k) {
+                   const TetrahedronIndex n = scene.t.neighbours[i][k];
+                   if (!n.valid() || moves.labels()[n] == Label::inside) continue;
+                   const std::array<SampleIndex, 3> face{v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]};
+                   if (is_long(face[0], face[1]) || is_long(face[1], face[2]) || is_long(face[2], face[0]))
+                     found[block].insert(found[block].end(), face.begin(), face.end());
+                 }
+               }
+             });
   std::vector<SampleIndex> samples;
-  for (TetrahedronIndex i{0}; i.value < t.tetrahedra.size(); ++i.value) {
-    if (labels[i] != Label::inside) continue;
-    const auto& v = t.tetrahedra[i];
-    for (std::size_t k = 0; k < 4; ++k) {
-      const TetrahedronIndex n = t.neighbours[i][k];
-      if (!n.valid() || labels[n] == Label::inside) continue;
-      const std::array<SampleIndex, 3> face{v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]};
-      const auto is_long = [&](std::size_t e) {
-        return squared_norm(t.positions[face[e]] - t.positions[face[(e + 1) % 3]]) > gap * gap;
-      };
-      if (is_long(0) || is_long(1) || is_long(2)) samples.insert(samples.end(), face.begin(), face.end());
-    }
-  }
+  for (const auto& part : found) samples.insert(samples.end(), part.begin(), part.end());
   std::sort(samples.begin(), samples.end());
   samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
+  std::erase_if(samples, [&](SampleIndex s) { return scene.t.is_corner(s); });
   return samples;
 }
 
-/// The samples that edges of at most `gap` join with one; empty if they are too many to be lonely.
-Group group_of(const Tetrahedralization& t, const VertexStars& stars, SampleIndex first, double gap) {
+/// The samples that short edges join with one; empty if they are too many to be lonely.
+Group group_of(const MoveScene& scene, SampleIndex first) {
   Group group{first};
   for (std::size_t k = 0; k < group.size(); ++k)
-    for (const TetrahedronIndex i : stars[group[k]])
-      for (const SampleIndex s : t.tetrahedra[i]) {
-        if (t.is_corner(s) || squared_norm(t.positions[s] - t.positions[group[k]]) > gap * gap) continue;
+    for (const TetrahedronIndex i : scene.stars[group[k]])
+      for (const SampleIndex s : scene.t.tetrahedra[i]) {
+        if (scene.t.is_corner(s) || distance(scene.t.positions[s], scene.t.positions[group[k]]) > gap_at(scene, first))
+          continue;
         if (std::find(group.begin(), group.end(), s) != group.end()) continue;
         if (group.size() == most_in_group) return {};
         group.push_back(s);
@@ -175,33 +68,75 @@ Group group_of(const Tetrahedralization& t, const VertexStars& stars, SampleInde
   return group;
 }
 
-/// Isolated samples, each for itself, and lonely groups of two or more; only those that long triangles lead to.
-std::vector<Group> possible_tips(const Tetrahedralization& t, const VertexStars& stars,
-                                 const Neighbourhoods& neighbourhoods, const Labels& labels) {
-  std::vector<Group> tips;
-  for (SampleIndex s{0}; s.value < t.sample_count; ++s.value)
-    if (neighbourhoods.isolated[s.value] > 0) tips.push_back({s});
-  const double gap = gap_in_spacings * neighbourhoods.typical;
-  std::set<Group> groups;
-  for (const SampleIndex s : at_long_triangles(t, labels, gap))
-    if (Group group = group_of(t, stars, s, gap); group.size() > 1) groups.insert(std::move(group));
-  tips.insert(tips.end(), groups.begin(), groups.end());
-  return tips;
+/// Isolated samples, each for itself, and lonely groups; only those that long triangles lead to.
+std::vector<Group> possible_tips(const Moves& moves) {
+  std::set<Group> tips;
+  for (SampleIndex s{0}; s.value < moves.scene.t.sample_count; ++s.value)
+    if (moves.scene.model.isolated[s.value] > 0) tips.insert({s});
+  for (const SampleIndex s : at_long_triangles(moves))
+    if (Group group = group_of(moves.scene, s); group.size() > 1) tips.insert(std::move(group));
+  return {tips.begin(), tips.end()};
+}
+
+/// The tetrahedra of one side around the samples.
+std::vector<TetrahedronIndex> side_of_stars(const Moves& moves, const Group& group, Label side) {
+  std::vector<TetrahedronIndex> tetrahedra;
+  for (const SampleIndex s : group)
+    for (const TetrahedronIndex i : moves.scene.stars[s])
+      if (moves.labels()[i] == side) tetrahedra.push_back(i);
+  std::sort(tetrahedra.begin(), tetrahedra.end());
+  tetrahedra.erase(std::unique(tetrahedra.begin(), tetrahedra.end()), tetrahedra.end());
+  return tetrahedra;
+}
+
+/// Is the group on the surface, and does no triangle join it to others that is not long?
+bool is_tip(const Moves& moves, const Group& group) {
+  const MoveScene& scene = moves.scene;
+  const auto holds = [&](SampleIndex s) { return std::binary_search(group.begin(), group.end(), s); };
+  for (const SampleIndex s : group)
+    for (const TetrahedronIndex i : scene.stars[s]) {
+      if (moves.labels()[i] != Label::inside) continue;
+      const auto& v = scene.t.tetrahedra[i];
+      for (std::size_t k = 0; k < 4; ++k) {
+        const TetrahedronIndex n = scene.t.neighbours[i][k];
+        if (v[k] == s || !n.valid() || moves.labels()[n] == Label::inside) continue;
+        double longest = 0;
+        bool leads_away = false;
+        for (std::size_t j = 1; j < 4; ++j) {
+          leads_away |= !holds(v[(k + j) % 4]);
+          longest =
+              std::max(longest, distance(scene.t.positions[v[(k + j) % 4]], scene.t.positions[v[(k + j % 3 + 1) % 4]]));
+        }
+        if (leads_away && longest < gap_at(scene, s)) return false;
+      }
+    }
+  return std::any_of(group.begin(), group.end(), [&](SampleIndex s) { return moves.labels().on_surface(s); });
+}
+
+/// The cheaper of turning one side or the other; no one misses outliers.
+bool cut(Moves& moves, const Group& tip) {
+  if (!is_tip(moves, tip)) return false;
+  for (const SampleIndex s : tip) moves.forgive(s);
+  Moves::Outcome best;
+  for (const Label side : {Label::inside, Label::outside}) {
+    const auto turned = side_of_stars(moves, tip, side);
+    if (std::any_of(turned.begin(), turned.end(), [&](TetrahedronIndex i) { return !moves.is_open(i); })) continue;
+    Moves::Outcome outcome = moves.weigh(turned, 0);
+    if (outcome.change < best.change) best = std::move(outcome);
+  }
+  moves.make(best);
+  return !best.turned.empty();
 }
 
 } // namespace
 
-SpikeCounts cut_spikes(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& first,
-                       const Labels& known, const Neighbourhoods& neighbourhoods, std::span<const float> grid_spacing,
-                       ManifoldRule rule, TetrahedronLabels& labels) {
-  std::vector<Group> left = possible_tips(t, stars, neighbourhoods, labels.labels());
-  if (left.empty()) return {};
-  SpikeCutting cutting(t, stars, poles, first, known, neighbourhoods, grid_spacing, rule, labels);
-  // A spike on a spike stands free only after the outer one is gone.
+SpikeCounts cut_spikes(Moves& moves) {
+  std::vector<Group> left = possible_tips(moves);
+  // A tip on a tip stands free only after the outer one is gone.
   SpikeCounts counts;
   for (std::size_t before = left.size() + 1; left.size() < before;) {
     before = left.size();
-    std::erase_if(left, [&](const Group& tip) { return cutting.cut(tip); });
+    std::erase_if(left, [&](const Group& tip) { return cut(moves, tip); });
     counts.cut += before - left.size();
   }
   return counts;

@@ -7,9 +7,7 @@
 #include "evidence/evidence.h"
 #include "numerics/quantile.h"
 #include "points/point_results.h"
-#include "repair/handles.h"
-#include "repair/recover.h"
-#include "repair/spikes.h"
+#include "repair/generators.h"
 #include "report/run.h"
 #include "samples/measures.h"
 #include "settle/minimum_energy.h"
@@ -45,7 +43,7 @@ void describe(const Samples& samples, Run& run) {
 }
 
 void describe(const SampleMeasures& measures, Run& run) {
-  run.report().spacing = measures.around.nearest;
+  run.report().spacing = measures.model.typical_spacing;
   run.report().grid_spacing = measures.scan_grid_spacing;
   describe_noise(measures.grid, run);
   constexpr double least_flat = 0.02; // thin tubes have 0.05, other scans 0.4 and more
@@ -99,8 +97,6 @@ void describe(const PoleLabels& labels, Run& run) {
 
 void describe(const MinimumLabels& labels, Run& run) {
   run.count("undecided", static_cast<double>(labels.undecided));
-  run.count("clusters", static_cast<double>(labels.clusters));
-  run.count("largest", static_cast<double>(labels.largest));
   run.count("energy", labels.energy);
 }
 

@@ -7,7 +7,7 @@
 namespace eigencrust {
 namespace {
 
-// Four times ℓ is the length below which a tetrahedron may be noise alone (docs/decisions/0012).
+// Four times ℓ is the length below which a tetrahedron may be noise alone (docs/decisions/0024).
 constexpr float grid_spacing_in_deviations = 1.2f;
 
 /// The noise that the options give; none: it is to be measured.
@@ -29,28 +29,30 @@ std::optional<double> given_noise(const Options& options, double diagonal) {
   return std::nullopt;
 }
 
-std::vector<float> reach_of(const SampleModel& model) {
+} // namespace
+
+std::vector<float> reach_for_poles(const SampleMeasures& measures) {
   // From the middle of the noise to where it thins out on either side.
   constexpr float reach_in_deviations = 2.4f;
   // Beyond a dozen spacings there are thousands of samples to look at, and none knows better.
   constexpr float farthest_in_spacings = 12;
+  const SampleModel& model = measures.model;
+  if (measures.trusts_all || measures.grid.empty()) return {};
   std::vector<float> reach(model.noise.size());
   for (std::size_t i = 0; i < reach.size(); ++i)
-    if (grid_spacing_in_deviations * model.noise[i] >= model.spacing[i])
+    if (measures.grid[i] >= model.spacing[i])
       reach[i] = std::min(farthest_in_spacings * model.spacing[i], reach_in_deviations * model.noise[i]);
   return reach;
 }
-
-} // namespace
 
 SampleMeasures measure(const PointCloud& cloud, const Samples& samples, const Options& options,
                        const Threads& threads) {
   SampleMeasures measures;
   const bool paper = options.weights == Weights::paper;
+  measures.trusts_all = paper;
   const std::optional<double> noise = paper ? 0 : given_noise(options, samples.bounds.diagonal());
   measures.model = sample_model(samples.positions.raw(), noise, threads);
   const SampleModel& model = measures.model;
-  measures.around = {model.spacing, model.typical_spacing, model.typical_spacing, model.isolated};
   if (options.questionable != Questionable::never)
     measures.scan_grid_spacing =
         resolve_grid_spacing(options.grid_spacing, samples, cloud.points, cloud.scan_index, threads);
@@ -59,9 +61,7 @@ SampleMeasures measure(const PointCloud& cloud, const Samples& samples, const Op
       measures.grid.assign(samples.positions.size(), static_cast<float>(measures.scan_grid_spacing));
     return measures;
   }
-  measures.isolated = model.isolated;
   if (std::none_of(model.noise.begin(), model.noise.end(), [](float sigma) { return sigma > 0; })) return measures;
-  measures.reach = reach_of(model);
   measures.grid = model.noise;
   for (float& length : measures.grid) length *= grid_spacing_in_deviations;
   return measures;

@@ -122,6 +122,7 @@ MeanPlane PlaceModels::mean_plane(const Vec3& place, double noise) const {
   for (const std::uint32_t i : index)
     weight.push_back(std::exp(-squared_norm(points[i] - place) / (2 * deviation * deviation)));
   const LocalFrame frame = local_frame(points, index, place, weight);
+  if (!is_finite(frame.mean)) return {}; // all are too far away to weigh anything
   return {frame.mean, frame.axis[0]};
 }
 

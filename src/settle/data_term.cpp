@@ -14,8 +14,11 @@ namespace {
 // A tie weighs so much where its directions are at right angles, and e^4 = 55 times that where they agree
 // (docs/decisions/0026: 0.03 to 0.3 make little difference).
 constexpr double tie = 0.1;
-// What a deviation of the noise from the mean plane costs, and how many count at most.
-constexpr double cost_of_sigma = 0.5, most_sigmas = 3;
+// What it costs a labelled pole to be on the other side, where all its neighbours agree with it: half of a tie at its
+// strongest, and more than its largest face.
+constexpr double cost_of_pole = 2.7;
+// What a deviation of the noise from the mean plane costs.
+constexpr double cost_of_sigma = 0.5;
 // What a line in front costs who is inside, a sample right in front who is outside (log-odds of a line that is true
 // nineteen times in twenty are 3), and how many count at most: lines are not independent.
 constexpr double cost_of_line = 3, cost_of_sample = 2, most_lines = 8;
@@ -56,7 +59,7 @@ void DataTerms::add_heights(TetrahedronIndex i, DataTerm& sum) const {
     ++planes;
   }
   if (planes == 0) return;
-  height = std::clamp(height / planes, -most_sigmas, most_sigmas);
+  height /= planes;
   (height > 0 ? sum.outside : sum.inside) += static_cast<float>(cost_of_sigma * std::fabs(height));
 }
 
@@ -75,6 +78,8 @@ DataTerm DataTerms::operator()(TetrahedronIndex i) const {
     if (!centre) centre = circumcentre(t_.positions[v[0]], t_.positions[v[1]], t_.positions[v[2]], t_.positions[v[3]]);
     add_ties(s, i, *centre, sum);
   }
+  if (const Label label = labels_.labels[i]; label != Label::unlabelled)
+    (label == Label::outside ? sum.outside : sum.inside) += static_cast<float>(cost_of_pole * labels_.trust[i] / 255);
   add_heights(i, sum);
   add_lines(i, sum);
   return sum;

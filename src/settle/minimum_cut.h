@@ -16,8 +16,9 @@ namespace eigencrust {
 /// not matter.
 struct CutProblem {
   std::vector<std::array<std::uint32_t, 4>> neighbour; ///< of each node; CutProblem::none where there is none
-  std::vector<std::array<std::int32_t, 4>> capacity; ///< of the edge to each neighbour, >= 0; the same from both sides
-  std::vector<std::int64_t> terminal; ///< > 0: capacity from the source (outside); < 0: to the sink (inside); net
+  std::vector<std::array<std::uint16_t, 4>> capacity;  ///< of the edge to each neighbour; the same from both sides
+  std::vector<std::int32_t> terminal; ///< > 0: capacity from the source (outside); < 0: to the sink (inside); net
+  static constexpr std::uint16_t largest_capacity = 32767;
   static constexpr std::uint32_t none = 0xffffffffu;
 };
 
@@ -28,15 +29,13 @@ enum class CutSide : std::uint8_t { source, sink, either };
 /// augmentations nor on threads. Both `source` alone and `source` with `either` are the source's side of a minimum cut.
 struct CutResult {
   std::vector<CutSide> side;
-  std::int64_t flow = 0;      ///< the value of the minimum cuts
-  std::uint64_t clusters = 0; ///< connected components of nodes and edges with capacity, single nodes included
-  std::uint32_t largest = 0;  ///< nodes of the largest of them
+  std::int64_t flow = 0; ///< the value of the minimum cuts
 };
 
-/// Near linear in time where most nodes have a terminal of the right sign. Needs 72 bytes per node beside the problem
-/// and the result, and 4 per cluster. Where neighbour, capacity and terminal disagree in length or an edge is not the
-/// same from both its nodes:
-/// \throws std::invalid_argument
+/// Near linear in time where most nodes have a terminal of the right sign, and on all threads where neighbours have
+/// numbers near each other. Needs 40 bytes per node beside the problem and the result. Where neighbour, capacity and
+/// terminal disagree in length, a capacity is too large or an edge is not the same from both its nodes: \throws
+/// std::invalid_argument
 CutResult minimum_cut(const CutProblem& problem, const Threads& threads);
 
 } // namespace eigencrust

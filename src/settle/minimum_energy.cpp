@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "settle/minimum_cut.h"
 
@@ -14,24 +15,56 @@ constexpr double units = 1000;
 
 std::int64_t in_units(float cost) { return std::llround(units * static_cast<double>(cost)); }
 
-/// What known and decided tetrahedra are; the others are unlabelled.
+/// What its data, and its neighbours as far as they have a label, ask a tetrahedron to be; unlabelled if its other
+/// faces could outweigh them.
+Label decided_label(const Tetrahedralization& t, const Energy& energy, const auto& label_of, TetrahedronIndex i) {
+  float asked = energy.data[i], open = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const TetrahedronIndex n = t.neighbours[i][k];
+    if (!n.valid()) continue;
+    const float weight = energy.faces(i, k);
+    const Label label = label_of(n);
+    if (label == Label::unlabelled)
+      open += weight;
+    else
+      asked += label == Label::outside ? weight : -weight;
+  }
+  return std::fabs(asked) <= open ? Label::unlabelled : asked > 0 ? Label::outside : Label::inside;
+}
+
+/// What known and decided tetrahedra are; the others are unlabelled. One that is decided may decide its neighbours, as
+/// far as that leads within a block.
 Labels decided_labels(const Tetrahedralization& t, const Energy& energy, const Threads& threads) {
   Labels labels = energy.known;
-  for_each_index(threads, labels.size(), [&](std::size_t at) {
-    const TetrahedronIndex i{static_cast<std::uint32_t>(at)};
-    if (labels[i] != Label::unlabelled) return;
-    float faces = 0;
-    for (std::size_t k = 0; k < 4; ++k)
-      if (t.neighbours[i][k].valid()) faces += energy.faces(i, k);
-    if (std::fabs(energy.data[i]) > faces) labels[i] = energy.data[i] > 0 ? Label::outside : Label::inside;
+  for_blocks(threads, labels.size(), default_block, [&](std::size_t begin, std::size_t end, std::size_t) {
+    const auto is_here = [&](TetrahedronIndex i) { return i.value >= begin && i.value < end; };
+    const auto label_of = [&](TetrahedronIndex i) { return is_here(i) ? labels[i] : energy.known[i]; };
+    std::vector<TetrahedronIndex> waiting;
+    for (TetrahedronIndex i{static_cast<std::uint32_t>(begin)}; i.value < end; ++i.value)
+      for (waiting.assign(1, i); !waiting.empty();) {
+        const TetrahedronIndex next = waiting.back();
+        waiting.pop_back();
+        if (labels[next] != Label::unlabelled) continue;
+        labels[next] = decided_label(t, energy, label_of, next);
+        if (labels[next] == Label::unlabelled) continue;
+        for (const TetrahedronIndex n : t.neighbours[next]) // later ones have their turn
+          if (n.valid() && is_here(n) && n < i) waiting.push_back(n);
+      }
   });
   return labels;
 }
 
+/// The nodes are the undecided tetrahedra in their order.
 CutProblem problem_of(const Tetrahedralization& t, const Energy& energy, const Labels& decided,
-                      std::span<const TetrahedronIndex> nodes, const Threads& threads) {
+                      const Threads& threads) {
   std::vector<std::uint32_t> node_of(decided.size(), CutProblem::none);
-  for (std::uint32_t node = 0; node < nodes.size(); ++node) node_of[nodes[node].value] = node;
+  std::vector<TetrahedronIndex> nodes;
+  nodes.reserve(static_cast<std::size_t>(std::count(decided.raw().begin(), decided.raw().end(), Label::unlabelled)));
+  for (TetrahedronIndex i{0}; i.value < decided.size(); ++i.value) {
+    if (decided[i] != Label::unlabelled) continue;
+    node_of[i.value] = static_cast<std::uint32_t>(nodes.size());
+    nodes.push_back(i);
+  }
   CutProblem problem;
   problem.neighbour.resize(nodes.size());
   problem.capacity.resize(nodes.size());
@@ -46,11 +79,12 @@ CutProblem problem_of(const Tetrahedralization& t, const Energy& energy, const L
       if (!n.valid()) continue;
       const std::int64_t weight = in_units(energy.faces(i, k));
       if (node_of[n.value] != CutProblem::none)
-        problem.capacity[node][k] = static_cast<std::int32_t>(weight);
+        problem.capacity[node][k] = static_cast<std::uint16_t>(weight);
       else
         terminal += decided[n] == Label::outside ? weight : -weight;
     }
-    problem.terminal[node] = terminal;
+    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+    problem.terminal[node] = static_cast<std::int32_t>(std::clamp(terminal, -most, most));
   });
   return problem;
 }
@@ -75,15 +109,11 @@ Energy make_energy(const Tetrahedralization& t, const DataTerms& data, const Lab
 MinimumLabels minimum_of(const Tetrahedralization& t, const Energy& energy, const Threads& threads) {
   MinimumLabels result;
   Labels labels = decided_labels(t, energy, threads);
-  std::vector<TetrahedronIndex> nodes;
-  for (TetrahedronIndex i{0}; i.value < labels.size(); ++i.value)
-    if (labels[i] == Label::unlabelled) nodes.push_back(i);
-  const CutResult cut = minimum_cut(problem_of(t, energy, labels, nodes, threads), threads);
-  for (std::size_t node = 0; node < nodes.size(); ++node)
-    labels[nodes[node]] = cut.side[node] == CutSide::sink ? Label::inside : Label::outside;
-  result.undecided = nodes.size();
-  result.clusters = cut.clusters;
-  result.largest = cut.largest;
+  const CutResult cut = minimum_cut(problem_of(t, energy, labels, threads), threads);
+  result.undecided = cut.side.size();
+  auto side = cut.side.begin();
+  for (Label& label : labels.raw())
+    if (label == Label::unlabelled) label = *side++ == CutSide::sink ? Label::inside : Label::outside;
   IndexedArray<TetrahedronIndex, float> value(labels.size());
   for_each_index(threads, labels.size(), [&](std::size_t at) {
     const TetrahedronIndex i{static_cast<std::uint32_t>(at)};

@@ -15,8 +15,6 @@ namespace eigencrust {
 struct MinimumLabels {
   TetrahedronLabels labels;
   std::uint64_t undecided = 0; ///< tetrahedra that their data term alone did not decide
-  std::uint64_t clusters = 0;  ///< that the undecided form
-  std::uint32_t largest = 0;   ///< of them
   double energy = 0;           ///< of the labels
 };
 

@@ -47,9 +47,10 @@ Partition partition_tetrahedra(SignedGraph graph, SecondStage method, const Solv
     return nothing;
   }
   const std::uint64_t edges = edge_count(graph);
+  const Components components = connected_components(graph);
   Partition partition = method == SecondStage::harmonic
                             ? partition_harmonic(std::move(graph), options, threads, checkpoint)
-                            : partition_components(graph, connected_components(graph), options, threads, checkpoint);
+                            : partition_components(std::move(graph), components, options, threads, checkpoint);
   partition.edges = edges;
   return partition;
 }

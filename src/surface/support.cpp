@@ -20,9 +20,9 @@ TetrahedronIndex across(const Tetrahedralization& t, TetrahedronIndex inside, co
 
 } // namespace
 
-void measure_support(const Tetrahedralization& t, const TetrahedronLabels& labels, const Neighbourhoods& neighbourhoods,
+void measure_support(const Tetrahedralization& t, const TetrahedronLabels& labels, const SampleModel& model,
                      std::span<const float> grid_spacing, Surface& surface, const Threads& threads) {
-  const TriangleSupport support(t, labels, neighbourhoods, grid_spacing);
+  const TriangleSupport support(t, labels, model, grid_spacing);
   surface.support.resize(surface.mesh.triangles.size());
   for_each_index(threads, surface.support.size(), [&](std::size_t i) {
     std::array<SampleIndex, 3> v;

@@ -5,7 +5,7 @@
 
 #include <eigencrust/stages.h>
 
-#include "samples/neighbourhoods.h"
+#include "samples/sample_model.h"
 
 namespace eigencrust {
 
@@ -14,7 +14,7 @@ namespace eigencrust {
 /// spacing ℓ if that is larger, and c the contrast |x_out - x_in| of the second stage's values across it (not in the
 /// paper).
 void measure_support(const Tetrahedralization& tetrahedralization, const TetrahedronLabels& labels,
-                     const Neighbourhoods& neighbourhoods, std::span<const float> grid_spacing, Surface& surface,
+                     const SampleModel& model, std::span<const float> grid_spacing, Surface& surface,
                      const Threads& threads);
 
 } // namespace eigencrust

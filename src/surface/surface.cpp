@@ -65,17 +65,17 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
                      const TetrahedronLabels& labels, const Context& context) {
   const auto& [options, run, threads] = context;
   const Tetrahedralization& t = scene.tetrahedralization;
-  const Neighbourhoods& around = scene.measures.around;
+  const SampleModel& model = scene.measures.model;
   const std::vector<float>& grid = scene.measures.grid;
   Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels(), threads); });
   run.product("surface", [&] { return snapshot_of_surface(t, surface); });
-  run.stage("support", [&] { measure_support(t, labels, around, grid, surface, threads); });
+  run.stage("support", [&] { measure_support(t, labels, model, grid, surface, threads); });
   run.stage("components", [&] { return filter_components(surface, options.components, t, grid, threads); });
   require_surface(surface);
   if (options.components.kind == KeepComponents::Kind::supported) require_samples_near(surface, scene, threads);
   const bool one_sided = options.facade.has_value() || evidence.one_sided.has_value();
   UnsupportedTriangles unsupported = run.stage("trim", [&] {
-    auto marked = unsupported_triangles(t, around, rays_of(cloud, scene), one_sided, surface, threads);
+    auto marked = unsupported_triangles(t, model, rays_of(cloud, scene), one_sided, surface, threads);
     const double share = share_of_area(surface, marked);
     return UnsupportedTriangles{std::move(marked), share};
   });

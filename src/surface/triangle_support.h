@@ -9,16 +9,16 @@
 
 #include <eigencrust/stages.h>
 
-#include "samples/neighbourhoods.h"
+#include "samples/sample_model.h"
 
 namespace eigencrust {
 
 /// See measure_support.
 class TriangleSupport {
  public:
-  TriangleSupport(const Tetrahedralization& t, const TetrahedronLabels& labels, const Neighbourhoods& neighbourhoods,
+  TriangleSupport(const Tetrahedralization& t, const TetrahedronLabels& labels, const SampleModel& model,
                   std::span<const float> grid_spacing)
-      : t_(t), labels_(labels), neighbourhoods_(neighbourhoods), grid_spacing_(grid_spacing) {}
+      : t_(t), labels_(labels), model_(model), grid_spacing_(grid_spacing) {}
 
   /// Of the face v between the tetrahedra `inside` and `outside` (invalid: nothing lies there).
   [[nodiscard]] float operator()(const std::array<SampleIndex, 3>& v, TetrahedronIndex inside,
@@ -39,14 +39,14 @@ class TriangleSupport {
   static constexpr double full_support = 2.5;
 
   [[nodiscard]] double scale(SampleIndex s) const {
-    const bool isolated = neighbourhoods_.isolated[s.value] > 0;
-    const double spacing = isolated ? neighbourhoods_.typical : static_cast<double>(neighbourhoods_.spacing[s.value]);
+    const bool isolated = model_.isolated[s.value] > 0;
+    const double spacing = isolated ? model_.typical_spacing : static_cast<double>(model_.spacing[s.value]);
     return grid_spacing_.empty() ? spacing : std::max(spacing, static_cast<double>(grid_spacing_[s.value]));
   }
 
   const Tetrahedralization& t_;
   const TetrahedronLabels& labels_;
-  const Neighbourhoods& neighbourhoods_;
+  const SampleModel& model_;
   std::span<const float> grid_spacing_;
 };
 

@@ -88,7 +88,7 @@ std::size_t mark_smaller_fans(const TriangleMesh& mesh, std::vector<std::uint8_t
 
 } // namespace
 
-std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& t, const Neighbourhoods& neighbourhoods,
+std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& t, const SampleModel& model,
                                                 std::span<const SightLine> lines, bool one_sided,
                                                 const Surface& surface, const Threads& threads) {
   std::vector<std::uint8_t> unsupported(surface.mesh.triangles.size(), 0);
@@ -98,9 +98,8 @@ std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& t, con
     for (std::size_t k = 0; k < 3; ++k) {
       const SampleIndex s = surface.sample_of[surface.mesh.triangles[i][k]];
       longest = std::max(longest, distance(p[k], p[(k + 1) % 3]));
-      spacing = std::min(spacing, neighbourhoods.isolated[s.value] > 0
-                                      ? neighbourhoods.typical
-                                      : static_cast<double>(neighbourhoods.spacing[s.value]));
+      spacing = std::min(
+          spacing, model.isolated[s.value] > 0 ? model.typical_spacing : static_cast<double>(model.spacing[s.value]));
     }
     unsupported[i] = surface.support[i] < least_support || longest > longest_edge * spacing ||
                      !is_seen(t, lines, one_sided, surface, i);

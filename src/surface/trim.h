@@ -5,7 +5,7 @@
 
 #include <eigencrust/stages.h>
 
-#include "samples/neighbourhoods.h"
+#include "samples/sample_model.h"
 
 namespace eigencrust {
 
@@ -13,9 +13,9 @@ namespace eigencrust {
 /// times the smallest local spacing of their vertices (of isolated ones: the typical one), or no line of sight of
 /// their vertices meets their front within 85° of the normal, in a one-sided scan: none of some vertex (not in the
 /// paper; docs/decisions/0020). Expects surface.support. \param lines as sight_lines() gives them; may be empty
-std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& tetrahedralization,
-                                                const Neighbourhoods& neighbourhoods, std::span<const SightLine> lines,
-                                                bool one_sided, const Surface& surface, const Threads& threads);
+std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& tetrahedralization, const SampleModel& model,
+                                                std::span<const SightLine> lines, bool one_sided,
+                                                const Surface& surface, const Threads& threads);
 /// The share of the surface's area that is marked.
 double share_of_area(const Surface& surface, std::span<const std::uint8_t> marked);
 /// What unsupported_triangles() marked, and its share.

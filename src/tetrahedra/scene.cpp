@@ -40,8 +40,8 @@ Scene make_scene(const PointCloud& cloud, const Context& context) {
   describe(scene.measures, run);
   const Tetrahedralization& t = scene.tetrahedralization;
   scene.stars = run.stage("stars", [&] { return vertex_stars(t, threads); });
-  scene.poles =
-      run.stage("poles", [&] { return find_poles(t, scene.stars, scene.measures.reach, options.weights, threads); });
+  scene.poles = run.stage(
+      "poles", [&] { return find_poles(t, scene.stars, reach_for_poles(scene.measures), options.weights, threads); });
   return scene;
 }
 

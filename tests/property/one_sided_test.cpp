@@ -10,8 +10,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "models.h"
 #include "parallel/threads.h"
+#include "samples/sample_model.h"
 #include "support.h"
 
 namespace eigencrust {
@@ -59,10 +59,11 @@ PointCloud kinect(const std::filesystem::path& file) {
 /// Every triangle has been seen by the sensors of its vertices and has no long edge, measured from the mesh alone.
 void expect_seen(const Result& result, const PointCloud& cloud) {
   const Samples samples = prepare_samples(cloud.points, Threads(2));
-  const Neighbourhoods around = sample_neighbourhoods(samples.positions.raw(), Threads(2));
+  const SampleModel model = sample_model(samples.positions.raw(), std::nullopt, Threads(2));
   std::vector<double> spacing(cloud.points.size(), 0);
   for (std::uint32_t s = 0; s < samples.source.size(); ++s)
-    spacing[samples.source.raw()[s]] = around.isolated[s] > 0 ? around.typical : static_cast<double>(around.spacing[s]);
+    spacing[samples.source.raw()[s]] =
+        model.isolated[s] > 0 ? model.typical_spacing : static_cast<double>(model.spacing[s]);
   const auto& attributes = result.mesh.vertex_attributes;
   const auto source =
       std::find_if(attributes.begin(), attributes.end(), [](const Attribute& a) { return a.name == "source_index"; });

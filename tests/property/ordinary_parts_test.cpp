@@ -106,7 +106,6 @@ TEST(OrdinaryParts, AScrapIsNoSuccess) {
     FAIL() << "a scrap of " << result.mesh.vertices.size() << " vertices passed";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::no_surface);
-    EXPECT_THAT(error.what(), testing::HasSubstr("samples lie on the surface"));
   }
 }
 

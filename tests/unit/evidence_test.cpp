@@ -4,7 +4,7 @@
 
 #include "clouds.h"
 #include "evidence/named_points.h"
-#include "models.h"
+#include "samples/sample_model.h"
 #include "support.h"
 
 namespace eigencrust {
@@ -162,19 +162,19 @@ TEST(KnownLabels, FacadeRefusesAnOutsidePointBehindIt) {
   EXPECT_EQ(kind_of(p.t, {{0, 0, 20}}, {{0, 0, -20}}, Axis::plus_z), ErrorKind{});
 }
 
-TEST(Neighbourhoods, OnlyTheLonelySampleIsIsolated) {
+TEST(SampleModel, OnlyTheLonelySampleIsIsolated) {
   // A flat lattice of spacing 1 with one sample 10 above it: its neighbours are all about 10 away.
   clouds::Points points;
   for (int x = 0; x < 12; ++x)
     for (int y = 0; y < 12; ++y) points.push_back({static_cast<double>(x), static_cast<double>(y), 0});
   points.push_back({5.5, 5.5, 10});
   const clouds::Prepared p = clouds::prepare(points);
-  const Neighbourhoods around =
-      sample_neighbourhoods(std::span(p.t.positions.raw()).first(p.t.sample_count), Threads(2));
-  const std::vector<float>& radius = around.isolated;
+  const SampleModel model =
+      sample_model(std::span(p.t.positions.raw()).first(p.t.sample_count), std::nullopt, Threads(2));
+  const std::vector<float>& radius = model.isolated;
   ASSERT_EQ(radius.size(), points.size());
-  ASSERT_EQ(around.spacing.size(), points.size());
-  EXPECT_NEAR(around.typical, 1, 0.2); // at the rim twelve neighbours reach farther
+  ASSERT_EQ(model.spacing.size(), points.size());
+  EXPECT_NEAR(model.typical_spacing, 1, 0.2); // at the rim twelve neighbours reach farther
   for (std::uint32_t i = 0; i < radius.size(); ++i) {
     const bool lonely = p.t.source.raw()[i] == points.size() - 1;
     // Twentieth neighbour of the lonely one: within the 32 lattice points at most sqrt(4.5² + 1.5²) off its foot.

@@ -16,7 +16,7 @@ struct FirstStage {
     const Threads threads(1);
     known = known_labels(p.t, {}, {}, {}, threads);
     graph = pole_graph(p.t, p.stars, p.poles, known, {}, {}, false, threads);
-    partition = partition_poles(graph, {}, threads, &component);
+    partition = partition_poles(graph, {}, true, threads, &component);
   }
   PoleLabels labels(GlobalSign sign) const {
     return label_poles(p.t, p.stars, p.poles, graph, partition, component, known, {}, sign, Threads(1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// §3.5 on cases made by hand within a random Delaunay. tests/property has the random labellings.
+// §3.5 as in the paper on cases made by hand within a random Delaunay; moves_test.cpp has the rule by energy.
 #include <eigencrust/validate.h>
 #include <gmock/gmock.h>
 
@@ -56,29 +56,26 @@ std::pair<TetrahedronIndex, TetrahedronIndex> pair_sharing(const Tetrahedralizat
 TEST(Manifold, WhatIsManifoldIsLeftAlone) {
   const Prepared p = clouds::prepare(clouds::random_box(60, 1));
   const auto [a, b] = pair_sharing(p.t, 3);
-  for (const ManifoldRule rule : {ManifoldRule::paper, ManifoldRule::cheapest}) {
-    TetrahedronLabels labels = all_outside(p.t);
-    set_inside(labels, a, 0.5f);
-    set_inside(labels, b, 0.25f);
-    const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, rule, labels, Threads(2));
-    EXPECT_EQ(counts.edges + counts.vertices + counts.relabelled, 0u);
-    EXPECT_THAT(inside_of(labels), testing::ElementsAre(a, b));
-  }
+  TetrahedronLabels labels = all_outside(p.t);
+  set_inside(labels, a, 0.5f);
+  set_inside(labels, b, 0.25f);
+  const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, labels, Threads(2));
+  EXPECT_EQ(counts.edges + counts.vertices + counts.relabelled, 0u);
+  EXPECT_THAT(inside_of(labels), testing::ElementsAre(a, b));
 }
 
 TEST(Manifold, OfTwoStrandsAtAnEdgeTheMoreCertainStays) {
   const Prepared p = clouds::prepare(clouds::random_box(60, 2));
   const auto [a, b] = pair_sharing(p.t, 2);
-  for (const ManifoldRule rule : {ManifoldRule::paper, ManifoldRule::cheapest})
-    for (const bool first_is_stronger : {true, false}) {
-      TetrahedronLabels labels = all_outside(p.t); // outside is certain: filling up would cost more
-      set_inside(labels, a, first_is_stronger ? 0.5f : 0.25f);
-      set_inside(labels, b, first_is_stronger ? 0.25f : 0.5f);
-      const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, rule, labels, Threads(2));
-      EXPECT_THAT(inside_of(labels), testing::ElementsAre(first_is_stronger ? a : b));
-      EXPECT_EQ(counts.edges, 1u);
-      EXPECT_EQ(counts.relabelled, 1u);
-    }
+  for (const bool first_is_stronger : {true, false}) {
+    TetrahedronLabels labels = all_outside(p.t); // outside is certain: filling up would cost more
+    set_inside(labels, a, first_is_stronger ? 0.5f : 0.25f);
+    set_inside(labels, b, first_is_stronger ? 0.25f : 0.5f);
+    const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, labels, Threads(2));
+    EXPECT_THAT(inside_of(labels), testing::ElementsAre(first_is_stronger ? a : b));
+    EXPECT_EQ(counts.edges, 1u);
+    EXPECT_EQ(counts.relabelled, 1u);
+  }
 }
 
 TEST(Manifold, OfEquallyCertainStrandsTheLargerStays) {
@@ -88,47 +85,9 @@ TEST(Manifold, OfEquallyCertainStrandsTheLargerStays) {
     TetrahedronLabels labels = all_outside(p.t);
     set_inside(labels, a, 0.5f);
     set_inside(labels, b, 0.5f);
-    make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, labels, Threads(2));
+    make_manifold(p.t, p.stars, p.poles, p.known, labels, Threads(2));
     EXPECT_THAT(inside_of(labels), testing::ElementsAre(clouds::volume(p.t, a) > clouds::volume(p.t, b) ? a : b));
   }
-}
-
-TEST(Manifold, ThinOutsideWedgeIsFilledWhereThatIsCheapest) {
-  // A ring of tetrahedra around an edge, all inside but two that are no neighbours: two strands. The paper
-  // drops a strand; the cheapest change is to fill the gap whose label is least certain.
-  const Prepared p = clouds::prepare(clouds::random_box(100, 4));
-  for (TetrahedronIndex first{0}; first.value < p.t.tetrahedra.size(); ++first.value) {
-    const SampleIndex u = p.t.tetrahedra[first][0], v = p.t.tetrahedra[first][1];
-    if (p.t.is_corner(u) || p.t.is_corner(v)) continue;
-    std::vector<TetrahedronIndex> ring;
-    bool at_cube = false;
-    for (const TetrahedronIndex t : p.stars[u])
-      if (vertices_of(p.t, t).count(v)) {
-        ring.push_back(t);
-        at_cube = at_cube || p.t.touches_cube(t);
-      }
-    if (at_cube || ring.size() < 6) continue;
-    TetrahedronIndex other;
-    for (const TetrahedronIndex t : ring)
-      if (t != ring[0] && shared(p.t, t, ring[0]).size() == 2) other = t;
-    ASSERT_TRUE(other.valid());
-    TetrahedronLabels labels = all_outside(p.t);
-    for (const TetrahedronIndex t : ring) set_inside(labels, t, 0.5f);
-    clouds::put(labels, ring[0], Label::outside, 0.125f);
-    clouds::put(labels, other, Label::outside, 1.0f);
-    TetrahedronLabels paper = labels;
-    const ManifoldCounts counts =
-        make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::cheapest, labels, Threads(2));
-    EXPECT_EQ(counts.relabelled, 1u);
-    EXPECT_EQ(labels[ring[0]], Label::inside);
-    EXPECT_EQ(labels[other], Label::outside);
-    expect_closed_manifold(p.t, labels);
-    make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, paper, Threads(2));
-    EXPECT_EQ(paper[ring[0]], Label::outside);
-    expect_closed_manifold(p.t, paper);
-    return;
-  }
-  FAIL() << "no ring of six";
 }
 
 TEST(Manifold, AtABowTieTheComponentWithThePoleStays) {
@@ -145,8 +104,7 @@ TEST(Manifold, AtABowTieTheComponentWithThePoleStays) {
       TetrahedronLabels labels = all_outside(p.t);
       set_inside(labels, pole, 0.25f);
       set_inside(labels, other, 0.5f); // more certain, but no pole
-      const ManifoldCounts counts =
-          make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, labels, Threads(2));
+      const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, labels, Threads(2));
       EXPECT_THAT(inside_of(labels), testing::ElementsAre(pole));
       EXPECT_EQ(counts.vertices, 1u);
       ++tried;
@@ -179,7 +137,7 @@ TEST(Manifold, CavitiesThatTouchAreJoinedAlongTheShortestPath) {
       if (!p.t.touches_cube(TetrahedronIndex{k}))
         set_inside(labels, TetrahedronIndex{k}, static_cast<float>(random.uniform(0.1, 1)));
     TetrahedronLabels solid = labels;
-    make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, solid,
+    make_manifold(p.t, p.stars, p.poles, p.known, solid,
                   Threads(2)); // its hull may need repair, once
     for (const TetrahedronIndex t : {star[0], other}) clouds::put(solid, t, Label::outside);
     // Bellman-Ford over the star.
@@ -192,7 +150,7 @@ TEST(Manifold, CavitiesThatTouchAreJoinedAlongTheShortestPath) {
           if (length.count(n))
             length[n] = std::min(length[n], length[t] + (n == other ? 0.0 : std::fabs(double(solid.value(n)))));
     const TetrahedronLabels before = solid;
-    const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, solid, Threads(2));
+    const ManifoldCounts counts = make_manifold(p.t, p.stars, p.poles, p.known, solid, Threads(2));
     expect_closed_manifold(p.t, solid);
     if (counts.vertices != 1 || counts.edges != 0) continue; // the path met something else
     double price = 0;
@@ -208,8 +166,7 @@ TEST(Manifold, CheckpointMayCancel) {
   const Prepared p = clouds::prepare(clouds::random_box(60, 8));
   TetrahedronLabels labels = clouds::random_labels(p.t, 0.5, 9);
   const auto cancel = [](double) { throw std::runtime_error("cancelled"); };
-  EXPECT_THROW(make_manifold(p.t, p.stars, p.poles, p.known, ManifoldRule::paper, labels, Threads(2), cancel),
-               std::runtime_error);
+  EXPECT_THROW(make_manifold(p.t, p.stars, p.poles, p.known, labels, Threads(2), cancel), std::runtime_error);
 }
 
 } // namespace

@@ -43,7 +43,7 @@ void connect(CutProblem& p, std::uint32_t i, std::uint32_t j, std::int32_t capac
   if (i == j || a < 0 || b < 0) return;
   p.neighbour[i][a] = j;
   p.neighbour[j][b] = i;
-  p.capacity[i][a] = p.capacity[j][b] = capacity;
+  p.capacity[i][a] = p.capacity[j][b] = static_cast<std::uint16_t>(capacity);
 }
 
 struct Recipe {
@@ -56,7 +56,7 @@ struct Recipe {
 
 CutProblem random_problem(std::uint32_t n, const Recipe& recipe, Random& random) {
   CutProblem p = without_edges(n);
-  for (std::int64_t& t : p.terminal)
+  for (std::int32_t& t : p.terminal)
     if (uniform(random, 1, 100) <= recipe.with_terminal) t = uniform(random, -recipe.terminal, recipe.terminal);
   const auto edges = static_cast<std::size_t>(recipe.edges * n);
   for (std::size_t e = 0; e < edges; ++e) {
@@ -93,7 +93,10 @@ CutProblem tetrahedral_grid(int size, int noise, int with_terminal, Random& rand
       const std::uint32_t j = p.neighbour[i][k];
       if (j == CutProblem::none) continue;
       // Faces 0 and 3 are each other's counterpart, 1 and 2 their own.
-      p.capacity[i][k] = j < i ? p.capacity[j][k == 0 ? 3 : k == 3 ? 0 : k] : uniform(random, 10, 2000);
+      p.capacity[i][k] = j < i ? p.capacity[j][k == 0   ? 3
+                                               : k == 3 ? 0
+                                                        : k]
+                               : static_cast<std::uint16_t>(uniform(random, 10, 2000));
     }
     if (uniform(random, 1, 100) <= with_terminal)
       p.terminal[i] = std::clamp((at[2] - size / 2) * 500, -1000, 1000) + uniform(random, -noise, noise);
@@ -217,8 +220,6 @@ TEST(MinimumCut, EmptyProblem) {
   const CutResult result = minimum_cut({}, Threads(2));
   EXPECT_TRUE(result.side.empty());
   EXPECT_EQ(result.flow, 0);
-  EXPECT_EQ(result.clusters, 0u);
-  EXPECT_EQ(result.largest, 0u);
 }
 
 TEST(MinimumCut, WithoutEdgesEachNodeFollowsItsTerminal) {
@@ -227,15 +228,12 @@ TEST(MinimumCut, WithoutEdgesEachNodeFollowsItsTerminal) {
   const CutResult result = minimum_cut(p, Threads(1));
   EXPECT_THAT(result.side, ElementsAre(CutSide::source, CutSide::sink, CutSide::either));
   EXPECT_EQ(result.flow, 0);
-  EXPECT_EQ(result.clusters, 3u);
-  EXPECT_EQ(result.largest, 1u);
 }
 
 TEST(MinimumCut, EdgesWithoutCapacityJoinNothing) {
   Random random(1);
   const CutProblem p = random_problem(500, {.edges = 3, .capacity = 0}, random);
   const CutResult result = minimum_cut(p, Threads(2));
-  EXPECT_EQ(result.clusters, 500u);
   EXPECT_EQ(result.flow, 0);
   expect_cuts_match(p, result);
 }
@@ -261,9 +259,9 @@ TEST(MinimumCut, ParallelEdgesAddUpEvenInDifferentOrder) {
 
 TEST(MinimumCut, GreatestNumbersDoNotOverflow) {
   Random random(1);
-  constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
+  constexpr std::int32_t most = CutProblem::largest_capacity;
   CutProblem p = without_edges(3);
-  p.terminal = {std::numeric_limits<std::int64_t>::max(), 0, std::numeric_limits<std::int64_t>::min()};
+  p.terminal = {std::numeric_limits<std::int32_t>::max(), 0, std::numeric_limits<std::int32_t>::min()};
   for (int k = 0; k < 2; ++k) {
     connect(p, 0, 1, most, random);
     connect(p, 1, 2, most, random);
@@ -283,6 +281,8 @@ TEST(MinimumCut, EdgesThatStandWithOneNodeOnlyAreRefused) {
   EXPECT_THROW(minimum_cut(p, Threads(2)), std::invalid_argument);
   p.capacity[1][0] = 4;
   EXPECT_EQ(minimum_cut(p, Threads(2)).flow, 0);
+  p.capacity[0][2] = p.capacity[1][0] = CutProblem::largest_capacity + 1;
+  EXPECT_THROW(minimum_cut(p, Threads(2)), std::invalid_argument);
   p.terminal.pop_back();
   EXPECT_THROW(minimum_cut(p, Threads(2)), std::invalid_argument);
 }
@@ -323,7 +323,6 @@ TEST(MinimumCut, LongChain) {
   p.terminal.back() = -9;
   const CutResult result = minimum_cut(p, Threads(1));
   EXPECT_EQ(result.flow, 4);
-  EXPECT_EQ(result.largest, n);
   EXPECT_EQ(std::count(result.side.begin(), result.side.end(), CutSide::source), 70001);
   EXPECT_EQ(std::count(result.side.begin(), result.side.end(), CutSide::sink), n - 70001);
 }
@@ -333,8 +332,6 @@ TEST(MinimumCut, TetrahedralGridLikeBoost) {
   for (const auto& [noise, with_terminal] : {std::pair{900, 100}, {400, 8}}) {
     const CutProblem p = tetrahedral_grid(32, noise, with_terminal, random);
     const CutResult result = minimum_cut(p, Threads(2));
-    EXPECT_EQ(result.clusters, 1u);
-    EXPECT_EQ(result.largest, 196608u);
     expect_like_boost(p, result);
     EXPECT_GT(std::count(result.side.begin(), result.side.end(), CutSide::source), 70000);
     EXPECT_GT(std::count(result.side.begin(), result.side.end(), CutSide::sink), 70000);
@@ -357,8 +354,6 @@ TEST(MinimumCut, SameForAnyNumberOfThreadsAndOrderOfNodes) {
       const CutResult several = minimum_cut(p, Threads(threads));
       EXPECT_EQ(several.side, one.side);
       EXPECT_EQ(several.flow, one.flow);
-      EXPECT_EQ(several.clusters, one.clusters);
-      EXPECT_EQ(several.largest, one.largest);
       const CutResult other = minimum_cut(shuffled, Threads(threads));
       EXPECT_EQ(other.flow, one.flow);
       std::size_t different = 0;

@@ -56,13 +56,19 @@ struct Expected {
   std::vector<std::map<std::uint32_t, double>> super; // node -> sum
 };
 
-/// Clusters of poles that are nodes: balls of neighbouring samples that nearly coincide and are no pole pair. The
-/// smallest pole of its cluster for each, found by spreading it until nothing changes.
+/// Clusters of poles that are nodes: each joins the largest ball of neighbouring samples that nearly coincides with its
+/// own, is larger and not its opposite. The smallest pole of its cluster for each, found by spreading it until nothing
+/// changes.
 std::vector<std::uint32_t> cluster_of(const Prepared& p, const std::vector<bool>& is_node,
                                       const std::vector<float>& isolated) {
   const auto& of_sample = p.poles.of_sample.raw();
   const auto& sphere = p.poles.sphere.raw();
-  std::set<Pair> pole_pairs, joined;
+  std::set<Pair> pole_pairs;
+  std::vector<std::uint32_t> up(is_node.size());
+  for (std::uint32_t i = 0; i < up.size(); ++i) up[i] = i;
+  const auto is_larger = [&](std::uint32_t a, std::uint32_t b) {
+    return sphere[a].radius > sphere[b].radius || (sphere[a].radius == sphere[b].radius && a < b);
+  };
   for (const PolePair& pair : of_sample)
     if (pair.second.valid()) pole_pairs.insert(std::minmax(pair.first.value, pair.second.value));
   for (const auto& [s, other] : delaunay_edges(p)) {
@@ -70,17 +76,19 @@ std::vector<std::uint32_t> cluster_of(const Prepared& p, const std::vector<bool>
     for (const PoleIndex a : {of_sample[s].first, of_sample[s].second})
       for (const PoleIndex b : {of_sample[other].first, of_sample[other].second}) {
         if (!a.valid() || !b.valid() || a == b || !is_node[a.value] || !is_node[b.value]) continue;
-        const Pair pair = std::minmax(a.value, b.value);
-        if (cosine(sphere[a.value], sphere[b.value]) < -0.98 && !pole_pairs.count(pair)) joined.insert(pair);
+        if (!(cosine(sphere[a.value], sphere[b.value]) < -0.93)) continue;
+        if (pole_pairs.count(std::minmax(a.value, b.value))) continue;
+        if (is_larger(b.value, up[a.value])) up[a.value] = b.value;
+        if (is_larger(a.value, up[b.value])) up[b.value] = a.value;
       }
   }
   std::vector<std::uint32_t> cluster(is_node.size());
   for (std::uint32_t i = 0; i < cluster.size(); ++i) cluster[i] = i;
   for (bool changed = true; changed;) {
     changed = false;
-    for (const auto& [a, b] : joined) {
-      if (cluster[a] == cluster[b]) continue;
-      cluster[a] = cluster[b] = std::min(cluster[a], cluster[b]);
+    for (std::uint32_t a = 0; a < up.size(); ++a) {
+      if (cluster[a] == cluster[up[a]]) continue;
+      cluster[a] = cluster[up[a]] = std::min(cluster[a], cluster[up[a]]);
       changed = true;
     }
   }

@@ -1,133 +1,134 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A sphere with a tetrahedron between its surface and one sample far from it, labelled by hand.
-#include <eigencrust/validate.h>
+// A sphere with a tetrahedron between its surface and one sample, or a few, far from it, labelled by hand.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include "clouds.h"
-#include "models.h"
-#include "parallel/threads.h"
-#include "repair/spikes.h"
+#include "moves.h"
 
 namespace eigencrust {
 namespace {
 
+using clouds::MoveStage;
 using clouds::Points;
 using clouds::Prepared;
 
-/// 2,000 samples stand 0.08 apart on the unit sphere (8,000: 0.04), the lonely one at `place`. All that is open has
-/// little value.
-struct Spike {
-  Threads threads{2};
-  Prepared p;
-  SampleIndex tip;
-  std::vector<TetrahedronIndex> spike; ///< between the tip and the surface
-  Labels first;
-  TetrahedronLabels labels;
-  Neighbourhoods neighbourhoods;
+/// 2,000 samples stand 0.08 apart on the unit sphere, others around `place`. All within the sphere is inside, and one
+/// tetrahedron of each that leads from there to a single sample at `place` and back.
+struct Spike : MoveStage {
+  std::vector<TetrahedronIndex> spike;
 
-  Spike(const Vec3& place, std::size_t tetrahedra, std::size_t samples = 2000)
-      : p(clouds::prepare(clouds::joined(clouds::sphere(samples), {place}))) {
-    for (SampleIndex s{0}; s.value < p.t.sample_count; ++s.value)
-      if (distance(p.t.positions[s] + p.t.origin, place) < 1e-9) tip = s;
-    const std::size_t n = p.t.tetrahedra.size();
-    first = Labels(n, Label::unlabelled);
-    clouds::HandMade made(n, 0.05f);
+  Spike(const Points& others, const Vec3& place, double certainty, std::size_t samples = 2000)
+      : Spike(clouds::prepare(clouds::joined(clouds::sphere(samples), others)),
+              3.5 / std::sqrt(static_cast<double>(samples)), place) {
     const bool beyond = norm(place) > 1;
-    for (TetrahedronIndex i{0}; i.value < n; ++i.value) {
-      if (p.t.touches_cube(i) || (beyond && at_tip(i))) continue;
-      made.set(i, Label::inside, 0.05f);
+    clouds::HandMade made(p.t.tetrahedra.size(), 5);
+    std::vector<TetrahedronIndex> leading;
+    for (TetrahedronIndex i{0}; i.value < p.t.tetrahedra.size(); ++i.value) {
+      const auto& v = p.t.tetrahedra[i];
+      const auto far = std::count_if(v.begin(), v.end(), [&](SampleIndex s) { return is_other(s); });
+      if (p.t.touches_cube(i)) continue;
+      if (far == 1 && leads_across(i, beyond)) leading.push_back(i);
+      if (far == 0 || !beyond) made.set(i, Label::inside, 5);
     }
+    spike.push_back(leading.at(leading.size() / 2));
+    made.set(spike[0], beyond ? Label::inside : Label::outside, static_cast<float>(certainty));
     labels = made.done();
-    neighbourhoods = sample_neighbourhoods(std::span(p.t.positions.raw()).first(p.t.sample_count), threads);
-    // Tetrahedra with a surface triangle opposite the tip, each beside the one before.
-    const Label around = beyond ? Label::outside : Label::inside;
-    for (const TetrahedronIndex i : p.stars[tip]) {
-      if (spike.size() == tetrahedra) break;
-      if (p.t.touches_cube(i) || labels[across_from_tip(i)] == around) continue;
-      if (spike.empty() || is_beside(i, spike.back())) spike.push_back(i);
-    }
-    for (const TetrahedronIndex i : spike) clouds::put(labels, i, beyond ? Label::inside : Label::outside);
+    energy.data = labels.values();
   }
-  [[nodiscard]] bool at_tip(TetrahedronIndex i) const {
+  [[nodiscard]] bool is_other(SampleIndex s) const {
+    return !p.t.is_corner(s) && distance(p.t.positions[s] + p.t.origin, place_) < 0.2;
+  }
+  /// Is across from the sample at the place what lies within the sphere (beyond) or around it?
+  [[nodiscard]] bool leads_across(TetrahedronIndex i, bool beyond) const {
     const auto& v = p.t.tetrahedra[i];
-    return std::find(v.begin(), v.end(), tip) != v.end();
+    std::size_t k = 0;
+    while (!is_other(v[k])) ++k;
+    const TetrahedronIndex n = p.t.neighbours[i][k];
+    const auto& w = p.t.tetrahedra[n];
+    const bool other = std::any_of(w.begin(), w.end(), [&](SampleIndex s) { return is_other(s); });
+    return !other && (beyond != p.t.touches_cube(n));
   }
-  [[nodiscard]] TetrahedronIndex across_from_tip(TetrahedronIndex i) const {
-    const auto& v = p.t.tetrahedra[i];
-    return p.t.neighbours[i][static_cast<std::size_t>(std::find(v.begin(), v.end(), tip) - v.begin())];
+  [[nodiscard]] std::size_t others_on_surface() const {
+    const auto samples = surface().sample_of;
+    return static_cast<std::size_t>(
+        std::count_if(samples.begin(), samples.end(), [&](SampleIndex s) { return is_other(s); }));
   }
-  [[nodiscard]] bool is_beside(TetrahedronIndex i, TetrahedronIndex j) const {
-    const auto& n = p.t.neighbours[i];
-    return std::find(n.begin(), n.end(), j) != n.end();
-  }
-  [[nodiscard]] Surface surface() const { return extract_surface(p.t, labels.labels(), Threads(2)); }
-  [[nodiscard]] bool tip_on_surface() const {
-    const Surface s = surface();
-    return std::find(s.sample_of.begin(), s.sample_of.end(), tip) != s.sample_of.end();
+  void isolate() {
+    for (SampleIndex s{0}; s.value < p.t.sample_count; ++s.value)
+      if (is_other(s)) model.isolated[s.value] = 1;
   }
   std::uint64_t cut() {
-    return cut_spikes(p.t, p.stars, p.poles, first, p.known, neighbourhoods, {}, ManifoldRule::cheapest, labels).cut;
+    Moves engine = moves();
+    const std::uint64_t count = cut_spikes(engine).cut;
+    if (count > 0) engine.settle_values();
+    return count;
   }
   void expect_uncut() {
+    ASSERT_GT(others_on_surface(), 0u);
     const TetrahedronLabels before = labels;
     EXPECT_EQ(cut(), 0u);
     EXPECT_EQ(labels.labels().raw(), before.labels().raw());
     EXPECT_EQ(labels.values().raw(), before.values().raw());
   }
+
+ private:
+  Spike(Prepared prepared, double spacing, const Vec3& place)
+      : MoveStage(std::move(prepared), {}, spacing), place_(place) {}
+  Vec3 place_;
 };
 
-TEST(Spikes, AreCutWhereNoPoleVouchesForThem) {
-  for (const std::size_t tetrahedra : {1u, 2u}) {
-    Spike spike({0.3, 0.2, 3}, tetrahedra);
-    ASSERT_EQ(spike.spike.size(), tetrahedra);
-    ASSERT_GT(spike.neighbourhoods.isolated[spike.tip.value], 0);
-    ASSERT_TRUE(spike.tip_on_surface());
-    EXPECT_EQ(spike.cut(), 1u);
-    for (const TetrahedronIndex i : spike.spike) {
-      EXPECT_EQ(spike.labels[i], Label::outside);
-      EXPECT_GT(spike.labels.value(i), 0);
-    }
-    // What is left is the sphere, with all its samples.
-    EXPECT_EQ(spike.surface().mesh.vertices.size(), 2000u);
-    EXPECT_FALSE(spike.tip_on_surface());
-    const MeshSummary summary = validate(spike.surface().mesh);
-    EXPECT_TRUE(summary.closed() && summary.manifold());
-  }
+const Vec3 far_away{0.3, 0.2, 3}, nearer{0.1, 0.05, 1.5}, deep{0.02, 0.01, 0.03};
+
+TEST(Spikes, AreCutThoughTheirOwnPoleVouchesForThem) {
+  Spike spike({far_away}, far_away, 10);
+  spike.isolate();
+  ASSERT_EQ(spike.others_on_surface(), 1u);
+  EXPECT_EQ(spike.cut(), 1u);
+  EXPECT_EQ(spike.labels[spike.spike[0]], Label::outside);
+  EXPECT_FALSE(std::signbit(spike.labels.value(spike.spike[0])));
+  // What is left is the sphere, with all its samples.
+  EXPECT_EQ(spike.surface().mesh.vertices.size(), 2000u);
+  EXPECT_EQ(spike.others_on_surface(), 0u);
+  EXPECT_TRUE(clouds::is_closed_manifold(spike.summary()));
 }
 
 TEST(Spikes, PitsAreFilled) {
-  Spike pit({0.02, 0.01, 0.03}, 1, 8000);
-  ASSERT_EQ(pit.spike.size(), 1u);
-  pit.neighbourhoods.isolated[pit.tip.value] = 1; // 25 spacings from everything: a support of 0.05
-  ASSERT_TRUE(pit.tip_on_surface());
+  Spike pit({deep}, deep, 5, 8000); // 25 spacings from everything
+  pit.isolate();
+  ASSERT_EQ(pit.others_on_surface(), 1u);
   EXPECT_EQ(pit.cut(), 1u);
-  EXPECT_EQ(pit.labels[pit.spike.front()], Label::inside);
+  EXPECT_EQ(pit.labels[pit.spike[0]], Label::inside);
   EXPECT_EQ(pit.surface().mesh.vertices.size(), 8000u);
 }
 
-TEST(Spikes, StayWhereTheFirstStageSettledThem) {
-  Spike spike({0.3, 0.2, 3}, 2);
-  spike.first[spike.spike.front()] = Label::inside;
-  // The other way, turning the tip's surroundings, would drown the sphere: they touch the cube.
+TEST(Spikes, SureOnesStay) {
+  Spike spike({far_away}, far_away, 100); // more than its length can cost
+  spike.isolate();
   spike.expect_uncut();
 }
 
-TEST(Spikes, StayWhereTheTipIsNotAlone) {
-  Spike spike({0.3, 0.2, 3}, 1);
-  spike.neighbourhoods.isolated[spike.tip.value] = 0;
+TEST(Spikes, WhatIsKnownStays) {
+  Spike spike({far_away}, far_away, 5);
+  spike.isolate();
+  spike.energy.known[spike.spike[0]] = Label::inside;
   spike.expect_uncut();
 }
 
-TEST(Spikes, ShortOnesAndSureOnesStay) {
-  Spike near({0.1, 0.05, 1.4}, 1); // at most 13 spacings: a support of 0.11
-  near.neighbourhoods.isolated[near.tip.value] = 1;
+TEST(Spikes, ShortOnesAndThoseOfSamplesInCompanyStay) {
+  Spike near({nearer}, nearer, 5); // 6 spacings
+  near.isolate();
   near.expect_uncut();
+  Spike no_outlier({far_away}, far_away, 5); // the model says so
+  no_outlier.expect_uncut();
+}
 
-  Spike sure({0.3, 0.2, 2.2}, 1); // 15 spacings and full contrast: 0.17
-  ASSERT_GT(sure.neighbourhoods.isolated[sure.tip.value], 0);
-  sure.labels = {sure.labels.labels(), IndexedArray<TetrahedronIndex, float>(sure.labels.size(), 1.0f)};
-  sure.expect_uncut();
+TEST(Spikes, FinsToSmallLonelyGroupsAreCut) {
+  Spike fin(clouds::sphere(12, 0.1, far_away), far_away, 5);
+  ASSERT_EQ(fin.others_on_surface(), 1u);
+  EXPECT_EQ(fin.cut(), 1u);
+  EXPECT_EQ(fin.labels[fin.spike[0]], Label::outside);
+  EXPECT_EQ(fin.surface().mesh.vertices.size(), 2000u);
+  EXPECT_TRUE(clouds::is_closed_manifold(fin.summary()));
+  Spike(clouds::sphere(100, 0.1, far_away), far_away, 5).expect_uncut();
 }
 
 // An unscanned side is closed with triangles as long as any spike's; its corners are no isolated samples.
@@ -135,68 +136,73 @@ TEST(Spikes, LidsStay) {
   Points bowl = clouds::sphere(4000);
   std::erase_if(bowl, [](const Vec3& p) { return p.z > 0; });
   Prepared p = clouds::prepare(bowl);
-  Labels first(p.t.tetrahedra.size(), Label::unlabelled);
   clouds::HandMade made(p.t.tetrahedra.size(), 0);
   for (TetrahedronIndex i{0}; i.value < p.t.tetrahedra.size(); ++i.value)
     if (!p.t.touches_cube(i)) made.set(i, Label::inside, 0);
-  TetrahedronLabels labels = made.done();
-  const Threads threads(2);
-  const Neighbourhoods around = sample_neighbourhoods(std::span(p.t.positions.raw()).first(p.t.sample_count), threads);
-  const Labels before = labels.labels();
-  EXPECT_EQ(cut_spikes(p.t, p.stars, p.poles, first, p.known, around, {}, ManifoldRule::cheapest, labels).cut, 0u);
-  EXPECT_EQ(labels.labels().raw(), before.raw());
+  MoveStage stage(std::move(p), made.done(), 0.05);
+  const Labels before = stage.labels.labels();
+  Moves moves = stage.moves();
+  EXPECT_EQ(cut_spikes(moves).cut, 0u);
+  EXPECT_EQ(stage.labels.labels().raw(), before.raw());
 }
 
-/// The sphere, a cluster of samples far from it, and a tetrahedron from the sphere's surface to one of them.
-struct Fin {
-  Prepared p;
-  std::vector<TetrahedronIndex> fin;
-  Labels first;
-  TetrahedronLabels labels;
-
-  explicit Fin(std::size_t cluster)
-      : p(clouds::prepare(clouds::joined(clouds::sphere(2000), clouds::sphere(cluster, 0.1, {0.3, 0.2, 3})))),
-        first(p.t.tetrahedra.size(), Label::unlabelled) {
-    clouds::HandMade made(p.t.tetrahedra.size(), 0.05f);
-    std::vector<TetrahedronIndex> to_cluster;
-    for (TetrahedronIndex i{0}; i.value < p.t.tetrahedra.size(); ++i.value) {
-      if (p.t.touches_cube(i)) continue;
-      const auto& v = p.t.tetrahedra[i];
-      const auto far = std::count_if(v.begin(), v.end(), [&](SampleIndex s) { return in_cluster(s); });
-      if (far == 1) to_cluster.push_back(i);
-      if (far > 0) continue;
-      made.set(i, Label::inside, 0.05f);
-    }
-    labels = made.done();
-    fin.push_back(to_cluster.at(to_cluster.size() / 2));
-    clouds::put(labels, fin[0], first[fin[0]] = Label::inside); // its one pole says so
-  }
-  [[nodiscard]] bool in_cluster(SampleIndex s) const { return (p.t.positions[s] + p.t.origin).z > 2; }
-  std::uint64_t cut() {
-    const Threads threads(2);
-    const Neighbourhoods around =
-        sample_neighbourhoods(std::span(p.t.positions.raw()).first(p.t.sample_count), threads);
-    EXPECT_THAT(around.isolated, testing::Each(0.0f)); // none of them alone
-    return cut_spikes(p.t, p.stars, p.poles, first, p.known, around, {}, ManifoldRule::cheapest, labels).cut;
-  }
-};
-
-TEST(Spikes, FinsToLonelyGroupsAreCut) {
-  Fin fin(40);
-  ASSERT_EQ(extract_surface(fin.p.t, fin.labels.labels(), Threads(1)).mesh.vertices.size(), 2001u);
-  EXPECT_EQ(fin.cut(), 1u);
-  EXPECT_EQ(fin.labels[fin.fin[0]], Label::outside);
-  const Surface rest = extract_surface(fin.p.t, fin.labels.labels(), Threads(1));
-  EXPECT_EQ(rest.mesh.vertices.size(), 2000u);
-  const MeshSummary summary = validate(rest.mesh);
-  EXPECT_TRUE(summary.closed() && summary.manifold());
+/// A sphere whose one vertex is passed by: the tetrahedra at it are outside.
+MoveStage dented_sphere(SampleIndex dent) {
+  Prepared p = clouds::prepare(clouds::sphere(1000));
+  clouds::HandMade made(p.t.tetrahedra.size(), 3);
+  for (TetrahedronIndex i{0}; i.value < p.t.tetrahedra.size(); ++i.value)
+    if (const auto& v = p.t.tetrahedra[i]; !p.t.touches_cube(i) && std::find(v.begin(), v.end(), dent) == v.end())
+      made.set(i, Label::inside, 3);
+  return {std::move(p), made.done(), 0.12};
 }
 
-TEST(Spikes, FinsToManySamplesStay) {
-  Fin fin(100);
-  const Labels before = fin.labels.labels();
-  EXPECT_EQ(fin.cut(), 0u);
-  EXPECT_EQ(fin.labels.labels().raw(), before.raw());
+TEST(RecoverSamples, TakesInWhatThePricesSay) {
+  const SampleIndex dent{500};
+  MoveStage stage = dented_sphere(dent);
+  ASSERT_FALSE(stage.on_surface(dent));
+  const MeshSummary before = stage.summary();
+  ASSERT_TRUE(clouds::is_closed_manifold(before));
+  Moves moves = stage.moves();
+  EXPECT_EQ(recover_samples(moves).samples, 1u);
+  EXPECT_TRUE(stage.on_surface(dent));
+  const MeshSummary after = stage.summary();
+  EXPECT_TRUE(clouds::is_closed_manifold(after));
+  EXPECT_EQ(after.euler, before.euler); // neither opens nor joins anything
+  EXPECT_EQ(after.components, before.components);
+  EXPECT_EQ(after.vertices, before.vertices + 1);
+}
+
+TEST(RecoverSamples, LeavesOutWhatNoiseOrOutliersExplain) {
+  const SampleIndex dent{500};
+  MoveStage noisy = dented_sphere(dent), sure = dented_sphere(dent), known = dented_sphere(dent);
+  noisy.model.noise.assign(noisy.p.t.sample_count, 0.1f);
+  for (TetrahedronIndex i{0}; i.value < sure.energy.data.size(); ++i.value) {
+    sure.energy.data[i] *= 10;
+    known.energy.known[i] = known.labels[i];
+  }
+  for (MoveStage* stage : {&noisy, &sure, &known}) {
+    Moves moves = stage->moves();
+    EXPECT_EQ(recover_samples(moves).samples, 0u);
+  }
+  // Many of its kind are passed by: outliers are.
+  Points points = clouds::sphere(1000);
+  clouds::Random random(5);
+  while (points.size() < 1100)
+    if (const Vec3 at = random.in_box(2); norm(at) > 1.05) points.push_back(at);
+  Prepared p = clouds::prepare(points);
+  clouds::HandMade made(p.t.tetrahedra.size(), 0.1f);
+  for (TetrahedronIndex i{0}; i.value < p.t.tetrahedra.size(); ++i.value) {
+    const auto& v = p.t.tetrahedra[i];
+    const bool within = std::none_of(v.begin(), v.end(), [&](SampleIndex s) {
+      return p.t.is_corner(s) || norm(p.t.positions[s] + p.t.origin) > 1.01;
+    });
+    if (within) made.set(i, Label::inside, 0.1f);
+  }
+  MoveStage outliers(std::move(p), made.done(), 0.12);
+  ASSERT_EQ(outliers.surface().sample_of.size(), 1000u);
+  Moves moves = outliers.moves();
+  recover_samples(moves);
+  EXPECT_LE(outliers.surface().sample_of.size(), 1002u); // some stand among those of the sphere
 }
 
 } // namespace

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include "clouds.h"
-#include "models.h"
 #include "parallel/threads.h"
 #include "surface/components.h"
 #include "surface/support.h"
@@ -21,7 +20,7 @@ struct Hull {
   Threads threads{2};
   Prepared p;
   TetrahedronLabels labels;
-  Neighbourhoods neighbourhoods;
+  SampleModel model;
   Surface surface;
 
   Hull(const Points& points, float x) : p(clouds::prepare(points)) {
@@ -30,11 +29,11 @@ struct Hull {
     for (TetrahedronIndex i{0}; i.value < n; ++i.value)
       if (!p.t.touches_cube(i)) made.set(i, Label::inside, x);
     labels = made.done();
-    neighbourhoods = sample_neighbourhoods(std::span(p.t.positions.raw()).first(p.t.sample_count), threads);
+    model = sample_model(std::span(p.t.positions.raw()).first(p.t.sample_count), std::nullopt, threads);
     surface = extract_surface(p.t, labels.labels(), Threads(2));
   }
   std::vector<float> support(std::span<const float> grid_spacing = {}) {
-    measure_support(p.t, labels, neighbourhoods, grid_spacing, surface, threads);
+    measure_support(p.t, labels, model, grid_spacing, surface, threads);
     return surface.support;
   }
   [[nodiscard]] bool has_vertex(std::size_t triangle, const Vec3& place) const {
@@ -95,7 +94,7 @@ TEST(Support, DoesNotDependOnThreads) {
   Hull hull(clouds::joined(clouds::sphere(2000), {{0, 0, 2}}), 0.4f);
   const std::vector<float> two = hull.support();
   const Threads one(1);
-  measure_support(hull.p.t, hull.labels, hull.neighbourhoods, {}, hull.surface, one);
+  measure_support(hull.p.t, hull.labels, hull.model, {}, hull.surface, one);
   EXPECT_EQ(hull.surface.support, two);
 }
 

@@ -5,7 +5,6 @@
 
 #include "clouds.h"
 #include "evidence/contradictions.h"
-#include "models.h"
 #include "parallel/threads.h"
 #include "shapes.h"
 #include "surface/trim.h"
@@ -20,14 +19,14 @@ using clouds::Prepared;
 struct Hull {
   Threads threads{2};
   Prepared p;
-  Neighbourhoods neighbourhoods;
+  SampleModel model;
   Surface surface;
 
   explicit Hull(const Points& points) : p(clouds::prepare(points)) {
     Labels labels(p.t.tetrahedra.size(), Label::outside);
     for (TetrahedronIndex i{0}; i.value < labels.size(); ++i.value)
       if (!p.t.touches_cube(i)) labels[i] = Label::inside;
-    neighbourhoods = sample_neighbourhoods(std::span(p.t.positions.raw()).first(p.t.sample_count), threads);
+    model = sample_model(std::span(p.t.positions.raw()).first(p.t.sample_count), std::nullopt, threads);
     surface = extract_surface(p.t, labels, Threads(2));
     surface.support.assign(surface.mesh.triangles.size(), 1);
   }
@@ -38,7 +37,7 @@ struct Hull {
     return lines;
   }
   std::vector<std::uint8_t> unsupported(std::span<const SightLine> lines, bool one_sided) {
-    return unsupported_triangles(p.t, neighbourhoods, lines, one_sided, surface, threads);
+    return unsupported_triangles(p.t, model, lines, one_sided, surface, threads);
   }
   [[nodiscard]] Vec3 normal(std::size_t i) const {
     const auto& [a, b, c] = surface.mesh.triangles[i];

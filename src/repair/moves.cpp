@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "repair/moves.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "repair/surface_fronts.h"
+
+namespace eigencrust {
+namespace {
+
+// What a sample is worth that the surface passes by, in units of the energy, where a face costs 0.01 (well borne out by
+// the samples) to 2 (not at all): as much as the ties of the three samples of a triangle can say for the space over it,
+// 3 × 0.1 e⁴ (settle/data_term.cpp). On clean scans nineteen of twenty cost less.
+constexpr double sample_price = 16.4;
+// Of the samples on the surface: as many passed by are noise or outliers, no one misses them.
+constexpr double most_passed = 0.04;
+// A piece more costs a fan of three faces that nothing bears out, and as much as a handle.
+constexpr double piece_price = 6;
+// What is left over by a move and has so few tetrahedra is no piece.
+constexpr std::size_t most_in_speck = 50;
+// Repairs of a move may turn so many times its own tetrahedra, and some; else it is no small change.
+constexpr std::uint64_t repairs_per_turned = 2, repairs_at_least = 64;
+
+double nearest_sample(const MoveScene& scene, SampleIndex s) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const TetrahedronIndex i : scene.stars[s])
+    for (const SampleIndex v : scene.t.tetrahedra[i])
+      if (v != s) nearest = std::min(nearest, squared_norm(scene.t.positions[v] - scene.t.positions[s]));
+  return std::sqrt(nearest);
+}
+
+bool is_passed(const MoveScene& scene, const Labels& labels, SampleIndex s) {
+  const auto star = scene.stars[s];
+  return std::all_of(star.begin(), star.end(), [&](TetrahedronIndex i) { return labels[i] == labels[star.front()]; });
+}
+
+/// What it costs to pass each sample by: nothing where noise exceeds the spacing, and the less the more samples of its
+/// kind, lonely ones or others, are passed by: outliers or noise explain that.
+std::vector<float> prices(const MoveScene& scene, const Labels& labels) {
+  const std::size_t n = scene.t.sample_count;
+  std::vector<std::uint8_t> lonely(n), passed(n);
+  for_each_index(scene.threads, n, [&](std::size_t at) {
+    const SampleIndex s{static_cast<std::uint32_t>(at)};
+    lonely[at] =
+        scene.model.isolated[at] > 0 || nearest_sample(scene, s) > static_cast<double>(scene.model.spacing[at]);
+    passed[at] = is_passed(scene, labels, s);
+  });
+  std::array<double, 2> off{};
+  double on = 0;
+  for (std::size_t at = 0; at < n; ++at) (passed[at] ? off[lonely[at]] : on) += 1;
+  std::vector<float> price(n);
+  for (std::size_t at = 0; at < n; ++at) {
+    if (scene.model.is_noisy(SampleIndex{static_cast<std::uint32_t>(at)})) continue;
+    const double explained = off[lonely[at]] / (most_passed * on);
+    price[at] = static_cast<float>(explained < 1 ? sample_price * (1 - explained) : 0);
+  }
+  return price;
+}
+
+} // namespace
+
+Moves::Moves(const MoveScene& s, TetrahedronLabels& labels)
+    : scene(s),
+      all_(labels),
+      priced_(s.t, s.stars, s.energy, s.model.spacing, prices(s, labels.labels()), labels, s.threads),
+      repair_(s.t, s.stars, s.energy.known, priced_),
+      link_(s.t, s.stars, labels.labels()),
+      seen_(s.t.tetrahedra.size(), 0),
+      owner_(s.t.positions.size(), SurfaceFronts::none) {}
+
+ManifoldCounts Moves::make_manifold(const Checkpoint& checkpoint) {
+  repair_.counts = {};
+  repair_.run(unsound_stars(scene.t, scene.stars, all_.labels(), scene.threads), {}, ~std::uint64_t{0}, checkpoint);
+  repair_.counts.overruled = overruled(scene.energy.known, all_.labels());
+  return repair_.counts;
+}
+
+std::vector<std::uint32_t> Moves::samples_of(std::span<const TetrahedronIndex> tetrahedra) const {
+  std::vector<std::uint32_t> samples;
+  for (const TetrahedronIndex i : tetrahedra)
+    for (const SampleIndex s : scene.t.tetrahedra[i])
+      if (!scene.t.is_corner(s)) samples.push_back(s.value);
+  std::sort(samples.begin(), samples.end());
+  samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
+  return samples;
+}
+
+Moves::Outcome Moves::weigh(std::span<const TetrahedronIndex> region, double handle) {
+  const std::size_t then = priced_.now();
+  const double before = priced_.cost();
+  for (const TetrahedronIndex i : region) priced_.turn(i);
+  const bool possible = repair_.run(samples_of(region), region, repairs_per_turned * region.size() + repairs_at_least);
+  if (possible) swallow_specks(priced_.turned_since(then));
+  Outcome outcome{0, priced_.turned_since(then)};
+  const auto& turned = outcome.turned;
+  if (!possible || !std::all_of(turned.begin(), turned.end(), [&](TetrahedronIndex i) { return is_open(i); })) {
+    priced_.back_to(then);
+    return {};
+  }
+  relax(turned);
+  outcome.turned = priced_.turned_since(then);
+  outcome.change = priced_.cost() - before;
+  const std::int64_t euler = -priced_.back_with_euler(then);
+  // At best two more in the Euler characteristic are a handle less.
+  if (!(outcome.change - handle * static_cast<double>(std::max<std::int64_t>(euler, 0)) / 2 < 0)) return {};
+  const std::vector<std::uint32_t> around = samples_of(outcome.turned);
+  const std::int64_t pieces_before = pieces_at(around);
+  make(outcome);
+  const std::int64_t pieces = pieces_at(around) - pieces_before, handles = pieces - euler / 2;
+  priced_.back_to(then);
+  if (handles > 0) return {};
+  outcome.change += (piece_price + handle) * static_cast<double>(pieces) + handle * static_cast<double>(handles);
+  return outcome;
+}
+
+/// Small sets of equal label beside what was turned that all else surrounds turn, too.
+void Moves::swallow_specks(const std::vector<TetrahedronIndex>& turned) {
+  std::vector<TetrahedronIndex> seen, speck;
+  for (const TetrahedronIndex beside : turned)
+    for (const TetrahedronIndex start : scene.t.neighbours[beside]) {
+      if (!start.valid() || seen_[start.value] || !is_open(start)) continue;
+      speck.assign(1, start);
+      seen_[start.value] = 1;
+      bool is_speck = true;
+      for (std::size_t k = 0; k < speck.size() && is_speck; ++k)
+        for (const TetrahedronIndex n : scene.t.neighbours[speck[k]]) {
+          if (!n.valid() || priced_[n] != priced_[start]) continue;
+          // What was seen before belongs to more than a speck, or is this one.
+          is_speck = is_speck && is_open(n) && (!seen_[n.value] || std::count(speck.begin(), speck.end(), n) > 0);
+          if (seen_[n.value] || !is_speck) continue;
+          seen_[n.value] = 1;
+          speck.push_back(n);
+          is_speck = speck.size() <= most_in_speck;
+        }
+      seen.insert(seen.end(), speck.begin(), speck.end());
+      if (!is_speck) continue;
+      for (const TetrahedronIndex i : speck) priced_.turn(i);
+    }
+  for (const TetrahedronIndex i : seen) seen_[i.value] = 0;
+}
+
+/// Turns back one at a time what need not be turned: where that costs less and leaves every star a disc.
+void Moves::relax(const std::vector<TetrahedronIndex>& turned) {
+  for (bool some = true; some;) {
+    some = false;
+    for (const TetrahedronIndex i : turned) some |= turn_back(i);
+  }
+}
+
+bool Moves::turn_back(TetrahedronIndex i) {
+  constexpr double least = 1e-9; // sums are rounded
+  if (!(priced_.cost_of(i) < -least)) return false;
+  const std::size_t then = priced_.now();
+  priced_.turn(i);
+  const auto& v = scene.t.tetrahedra[i];
+  const bool same =
+      std::all_of(v.begin(), v.end(), [&](SampleIndex s) { return scene.t.is_corner(s) || link_.is_disc(s); });
+  if (priced_.back_with_euler(then) != 0 || !same) return false;
+  priced_.turn(i);
+  return true;
+}
+
+void Moves::make(const Outcome& outcome) {
+  for (const TetrahedronIndex i : outcome.turned) priced_.turn(i);
+}
+
+/// How many pieces of the surface touch these samples.
+std::int64_t Moves::pieces_at(const std::vector<std::uint32_t>& samples) {
+  return SurfaceFronts(scene.t, scene.stars, priced_, owner_).pieces(samples);
+}
+
+void Moves::settle_values() {
+  std::vector<TetrahedronIndex> touched = priced_.turned_since(0);
+  const std::size_t turned = touched.size();
+  for (std::size_t k = 0; k < turned; ++k)
+    for (const TetrahedronIndex i : scene.t.neighbours[touched[k]])
+      if (i.valid()) touched.push_back(i);
+  IndexedArray<TetrahedronIndex, float> value = all_.values();
+  Labels labels = std::move(all_).labels();
+  for (const TetrahedronIndex i : touched) {
+    const float balance = scene.energy.known[i] == labels[i] ? 1.0f : scene.energy.balance(scene.t, labels, i);
+    value[i] = (labels[i] == Label::outside) == (balance > 0) || scene.energy.known[i] == labels[i] ? balance : 0.0f;
+  }
+  all_ = {std::move(labels), std::move(value)};
+}
+
+} // namespace eigencrust

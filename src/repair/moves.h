@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The engine of all repairs: tetrahedra turn where that makes the surface better.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <eigencrust/stages.h>
+
+#include "repair/priced_labels.h"
+#include "repair/star_repair.h"
+#include "samples/sample_model.h"
+#include "settle/energy.h"
+
+namespace eigencrust {
+
+/// What moves look at.
+struct MoveScene {
+  const Tetrahedralization& t;
+  const VertexStars& stars;
+  const Energy& energy; ///< what it knows only the mandatory moves may overrule, and only where nothing else helps
+  const SampleModel& model;
+  const Threads& threads;
+};
+
+/// One rule says which moves are made (docs/decisions/0027): those that leave a manifold and decrease
+///   J = E + u · samples passed by + lengths of long triangles + c · pieces + g · handles.
+/// The first three are the cost of the labels (PricedLabels); g is that of the place, 0 where there is no noise.
+class Moves {
+ public:
+  Moves(const MoveScene& scene, TetrahedronLabels& labels);
+
+  const MoveScene scene;
+  [[nodiscard]] const PricedLabels& labels() const { return priced_; }
+
+  /// Mandatory moves: every star becomes a disc. The others expect that.
+  ManifoldCounts make_manifold(const Checkpoint& checkpoint = {});
+
+  /// What a move changes, and the tetrahedra that it turns with all that follows from it.
+  struct Outcome {
+    double change = 0; ///< of J; >= 0: not to be made
+    std::vector<TetrahedronIndex> turned;
+  };
+  /// Turns these, mends the stars around, turns back what need not be, and then takes it all back.
+  /// \param handle g: what one handle less is worth here
+  Outcome weigh(std::span<const TetrahedronIndex> turned, double handle);
+  void make(const Outcome& outcome);
+  /// Turns one of which three vertices are a triangle of the surface and the fourth is passed by: that changes
+  /// neither handles nor pieces.
+  void turn(TetrahedronIndex i) { priced_.turn(i); }
+
+  /// That this sample is passed by costs nothing from now on.
+  void forgive(SampleIndex s) { priced_.forgive(s); }
+
+  /// May this tetrahedron turn if nothing forces it?
+  [[nodiscard]] bool is_open(TetrahedronIndex i) const {
+    return scene.energy.known[i] == Label::unlabelled && !scene.t.touches_cube(i);
+  }
+  /// Distinct samples of these tetrahedra, increasing.
+  [[nodiscard]] std::vector<std::uint32_t> samples_of(std::span<const TetrahedronIndex> tetrahedra) const;
+  /// Makes the values at all that was turned what the energy says of them now.
+  void settle_values();
+
+ private:
+  void swallow_specks(const std::vector<TetrahedronIndex>& turned);
+  void relax(const std::vector<TetrahedronIndex>& turned);
+  bool turn_back(TetrahedronIndex i);
+  std::int64_t pieces_at(const std::vector<std::uint32_t>& samples);
+
+  TetrahedronLabels& all_;
+  PricedLabels priced_;
+  StarRepair repair_;
+  LinkCheck link_;
+  std::vector<std::uint8_t> seen_;   ///< tetrahedra, while specks are looked for
+  std::vector<std::uint32_t> owner_; ///< while pieces are counted: which front reached the sample
+};
+
+} // namespace eigencrust
