@@ -103,6 +103,9 @@ PoleLabels label_poles(const Tetrahedralization& t, const VertexStars& stars, co
   for_each_index(threads, agreed.size(), [&](std::size_t node) {
     agreed[node] = agreement(graph.graph, partition, static_cast<std::uint32_t>(node));
   });
+  // A node that holds a pole named after the graph was made is what it is named, whatever its neighbours say.
+  for (PoleIndex p{0}; p.value < graph.node.size(); ++p.value)
+    if (graph.node[p].valid() && known[poles.tetrahedron[p]] != Label::unlabelled) agreed[graph.node[p].value] = 1;
   result.trust = IndexedArray<TetrahedronIndex, std::uint8_t>(t.tetrahedra.size(), 255);
   for (PoleIndex p{0}; p.value < graph.node.size(); ++p.value) {
     const std::uint32_t node = graph.node[p].value;
