@@ -30,16 +30,6 @@ double lens(double distance, double a, double b) {
   return a * a * (u - std::sin(2 * u) / 2) + b * b * (v - std::sin(2 * v) / 2);
 }
 
-/// A scene of which every row is a sample of the true surface.
-Scene scene_of(std::vector<Vec3> samples, Truth truth, unsigned threads) {
-  Scene scene;
-  scene.true_samples = samples.size();
-  scene.spacing = median_spacing(samples, threads);
-  scene.cloud.points = std::move(samples);
-  scene.truth = std::move(truth);
-  return scene;
-}
-
 /// Spread evenly over a sphere, about `spacing` apart.
 std::vector<Vec3> on_sphere(double radius, const Vec3& centre, double spacing) {
   // A spiral of n points on the unit sphere has spacing 3.5 / √n.
@@ -75,7 +65,7 @@ std::vector<tools::Sensor> all_around(const Vec3& place, std::uint32_t rays) {
 } // namespace
 
 Scene part_scene(Part part, double noise, std::uint64_t seed, unsigned threads) {
-  Scene scene = scene_of(std::move(part.samples), std::move(part.truth), threads);
+  Scene scene = clean_scene(std::move(part.samples), std::move(part.truth), threads);
   scene.sharp_edges = std::move(part.sharp_edges);
   if (noise > 0) add_noise(scene.cloud.points, noise * scene.spacing, seed);
   return scene;
@@ -152,7 +142,7 @@ Scene Organ::contours(unsigned slices, double step, unsigned threads) const {
     truth.volume += thickness * section_area(low() + thickness * (i + 0.5));
   }
   truth.inside = [organ = *this](const Vec3& p) { return organ.inside(p); };
-  return scene_of(std::move(points), std::move(truth), threads);
+  return clean_scene(std::move(points), std::move(truth), threads);
 }
 
 Scene tunnel(double length, double gap, double a, double b, double swing, unsigned per_ring, unsigned threads) {
@@ -165,7 +155,7 @@ Scene tunnel(double length, double gap, double a, double b, double swing, unsign
     }
   Truth truth;
   truth.volume = pi * a * b * length; // Cavalieri
-  return scene_of(std::move(points), std::move(truth), threads);
+  return clean_scene(std::move(points), std::move(truth), threads);
 }
 
 Scene noisy_beside_clean(std::size_t count, double noise, std::uint64_t seed, unsigned threads) {
@@ -175,7 +165,7 @@ Scene noisy_beside_clean(std::size_t count, double noise, std::uint64_t seed, un
   Part parts = beside(ball(clean, {6, 0, 0}, fine * spacing), block_part(plate, fine * spacing));
   const std::size_t clean_end = parts.samples.size(), ball_end = on_sphere(clean, {}, fine * spacing).size();
   parts = beside(std::move(parts), ball(radius, {}, spacing));
-  Scene scene = scene_of(std::move(parts.samples), std::move(parts.truth), threads);
+  Scene scene = clean_scene(std::move(parts.samples), std::move(parts.truth), threads);
   std::vector<Vec3>& points = scene.cloud.points;
   std::vector<Vec3> noisy(points.begin() + static_cast<std::ptrdiff_t>(clean_end), points.end());
   add_noise(noisy, noise * spacing, seed);
@@ -217,7 +207,7 @@ Scene filled_ellipsoid(const Vec3& half_axes, std::size_t count, std::uint64_t s
     for (double x = -std::floor(half_axes.x); x <= half_axes.x; ++x)
       for (double y = -std::floor(half_axes.y); y <= half_axes.y; ++y)
         for (double z = -std::floor(half_axes.z); z <= half_axes.z; ++z) add({x, y, z});
-  return scene_of(std::move(points), {}, threads);
+  return clean_scene(std::move(points), {}, threads);
 }
 
 Scene room(std::span<const Vec3> scanners, bool furnished, double noise, std::uint64_t seed, unsigned threads) {
@@ -240,7 +230,7 @@ Scene room(std::span<const Vec3> scanners, bool furnished, double noise, std::ui
   PointCloud cloud = tools::scan(*truth.mesh, views, options);
   for (const Vec3& place : scanners) cloud.sensors.push_back({place, false});
   for (const std::uint32_t view : cloud.scan_index) cloud.sensor_of.push_back(view / 6);
-  Scene scene = scene_of(cloud.points, std::move(truth), threads);
+  Scene scene = clean_scene(cloud.points, std::move(truth), threads);
   scene.cloud = std::move(cloud);
   return scene;
 }
@@ -263,7 +253,7 @@ Scene terrain(unsigned columns, unsigned rows, double cell, std::uint64_t seed, 
         z += h.height * std::exp(-(std::pow(i - h.x, 2) + std::pow(j - h.y, 2)) / (h.width * h.width));
       points.push_back({432'100.5 + cell * i, 5'480'200.5 + cell * j, std::round(100 * z) / 100});
     }
-  return scene_of(std::move(points), {}, threads);
+  return clean_scene(std::move(points), {}, threads);
 }
 
 Scene ball_on_ground(double ground, double radius, double spacing, std::uint64_t seed, unsigned threads) {
@@ -278,7 +268,7 @@ Scene ball_on_ground(double ground, double radius, double spacing, std::uint64_t
     }
   for (const Vec3& p : on_sphere(radius, {0, 0, radius}, spacing))
     if (p.z > radius) points.push_back(p);
-  return scene_of(std::move(points), {}, threads);
+  return clean_scene(std::move(points), {}, threads);
 }
 
 } // namespace eigencrust::bench

@@ -28,4 +28,7 @@ struct Scene {
   std::vector<std::array<std::size_t, 2>> clean_rows{};
 };
 
+/// One of which every row is a sample of the true surface.
+Scene clean_scene(std::vector<Vec3> samples, Truth truth, unsigned threads);
+
 } // namespace eigencrust::bench

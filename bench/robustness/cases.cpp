@@ -45,15 +45,6 @@ std::vector<Case> select_cases(std::vector<Case> cases, const std::vector<std::s
   return cases;
 }
 
-Scene clean_scene(std::vector<Vec3> samples, Truth truth, unsigned threads) {
-  Scene scene;
-  scene.true_samples = samples.size();
-  scene.spacing = median_spacing(samples, threads);
-  scene.cloud.points = std::move(samples);
-  scene.truth = std::move(truth);
-  return scene;
-}
-
 RenderOptions view_of(const std::string& file) {
   RenderOptions view;
   view.width = view.height = 900;

@@ -47,9 +47,6 @@ inline Requirement equals(std::string figure, double bound) { return {std::move(
 inline Requirement at_most(std::string figure, double bound) { return {std::move(figure), Relation::at_most, bound}; }
 inline Requirement at_least(std::string figure, double bound) { return {std::move(figure), Relation::at_least, bound}; }
 
-/// A scene of which every row is a sample of the true surface.
-Scene clean_scene(std::vector<Vec3> samples, Truth truth, unsigned threads);
-
 /// How the meshes of the data folder are looked at.
 RenderOptions view_of(const std::string& file);
 

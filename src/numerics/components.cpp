@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 namespace eigencrust {
@@ -43,28 +42,27 @@ Components connected_components(const SignedGraph& graph) {
   return result;
 }
 
-Subgraph extract_component(const SignedGraph& graph, std::uint32_t component, const std::vector<std::uint32_t>& nodes) {
-  Subgraph sub;
-  sub.node = nodes;
-  sub.graph.row_begin.push_back(0);
-  // Nodes are increasing, so a binary search gives a node's number in the subgraph.
+SignedGraph extract_component(const SignedGraph& graph, std::uint32_t component,
+                              const std::vector<std::uint32_t>& nodes) {
+  SignedGraph sub;
+  sub.row_begin.push_back(0);
   const auto local = [&](std::uint32_t node) {
     return static_cast<std::uint32_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
   };
   for (const std::uint32_t i : nodes) {
     for (std::uint64_t e = graph.row_begin[i]; e < graph.row_begin[i + 1]; ++e) {
-      sub.graph.column.push_back(local(graph.column[e]));
-      sub.graph.weight.push_back(graph.weight[e]);
+      sub.column.push_back(local(graph.column[e]));
+      sub.weight.push_back(graph.weight[e]);
     }
-    sub.graph.row_begin.push_back(sub.graph.column.size());
+    sub.row_begin.push_back(sub.column.size());
   }
   if (component != 0) return sub;
   for (const SignedGraph::Supernode& super : graph.supernodes) {
     SignedGraph::Supernode part;
     for (const std::uint32_t i : nodes) part.weight.push_back(super.weight[i]);
-    sub.graph.supernodes.push_back(std::move(part));
+    sub.supernodes.push_back(std::move(part));
   }
-  sub.graph.supernode_weight = graph.supernode_weight;
+  sub.supernode_weight = graph.supernode_weight;
   return sub;
 }
 

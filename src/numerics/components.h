@@ -18,12 +18,9 @@ struct Components {
 /// Supernodes all belong to component 0; the others are numbered by their first node.
 Components connected_components(const SignedGraph& graph);
 
-/// The nodes of one component with the edges among them; supernodes only for component 0.
-struct Subgraph {
-  SignedGraph graph;
-  std::vector<std::uint32_t> node; ///< in the whole graph
-};
-Subgraph extract_component(const SignedGraph& graph, std::uint32_t component, const std::vector<std::uint32_t>& nodes);
+/// The (increasing) nodes of one component with the edges among them; supernodes only for component 0.
+SignedGraph extract_component(const SignedGraph& graph, std::uint32_t component,
+                              const std::vector<std::uint32_t>& nodes);
 
 /// L of §3.2: L_ij = -w_ij, L_ii = Σ |L_ij|; supernodes form the border.
 BorderedMatrix signed_laplacian(SignedGraph graph, const Threads& threads);

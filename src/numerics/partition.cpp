@@ -68,10 +68,10 @@ Partition partition_components(SignedGraph graph, const Components& components, 
   const std::size_t supernodes = graph.supernodes.size();
   std::vector<std::vector<std::uint32_t>> members(components.count);
   for (std::uint32_t i = 0; i < n; ++i) members[components.of_node[i]].push_back(i);
-  std::vector<Subgraph> parts;
+  std::vector<SignedGraph> parts;
   for (std::uint32_t c = 0; c < components.count && components.count > 1; ++c)
     parts.push_back(extract_component(graph, c, members[c]));
-  if (parts.empty()) parts.push_back({std::move(graph), {}});
+  if (parts.empty()) parts.push_back(std::move(graph));
   graph = {};
   for (std::uint32_t c = 0; c < components.count; ++c) {
     if (c > 0 && members[c].size() == 1) { // no edge at all: any sign will do
@@ -79,7 +79,7 @@ Partition partition_components(SignedGraph graph, const Components& components, 
       continue;
     }
     if (members[c].empty()) continue;
-    IterationResult result = solve(signed_laplacian(std::move(parts[c].graph), threads), options, threads, checkpoint);
+    IterationResult result = solve(signed_laplacian(std::move(parts[c]), threads), options, threads, checkpoint);
     if (c == 0 || (c == 1 && members[0].empty())) take_figures(result, partition);
     if (result.x.empty()) continue; // not converged at all: no labels, and the status says so
     scale_to_one(result.x);

@@ -407,13 +407,13 @@ TEST(Components, SupernodesAreAllInComponentZero) {
   const Components c = connected_components(g);
   EXPECT_EQ(c.count, 3u);
   EXPECT_THAT(c.of_node, testing::ElementsAre(0, 0, 0, 1, 1, 2));
-  const Subgraph free_part = extract_component(g, 1, {3, 4});
-  EXPECT_EQ(free_part.graph.node_count(), 2u);
-  EXPECT_THAT(free_part.graph.column, testing::ElementsAre(1, 0));
-  EXPECT_TRUE(free_part.graph.supernodes.empty());
-  const Subgraph held = extract_component(g, 0, {0, 1, 2});
-  ASSERT_EQ(held.graph.supernodes.size(), 2u);
-  EXPECT_THAT(held.graph.supernodes[0].weight, testing::ElementsAre(0, 2, 0));
+  const SignedGraph free_part = extract_component(g, 1, {3, 4});
+  EXPECT_EQ(free_part.node_count(), 2u);
+  EXPECT_THAT(free_part.column, testing::ElementsAre(1, 0));
+  EXPECT_TRUE(free_part.supernodes.empty());
+  const SignedGraph held = extract_component(g, 0, {0, 1, 2});
+  ASSERT_EQ(held.supernodes.size(), 2u);
+  EXPECT_THAT(held.supernodes[0].weight, testing::ElementsAre(0, 2, 0));
 }
 
 } // namespace
