@@ -1,16 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Samples that the surface passes by, taken in one tetrahedron at a time (not in the paper;
 // docs/decisions/0027).
+#include <algorithm>
+#include <limits>
+
 #include "repair/generators.h"
 
 namespace eigencrust {
 namespace {
 
+// An outlier is lonely: its nearest sample is farther away than the surface's samples are from each other.
+constexpr double max_loneliness = 1.5;
+
 /// The tetrahedron of the star with a surface triangle opposite s that costs least; invalid if none makes it better.
 /// Turning it puts s on the surface and neither opens nor joins anything.
 TetrahedronIndex best_tetrahedron(const Moves& moves, SampleIndex s) {
   const MoveScene& scene = moves.scene;
-  double least = 0;
+  double least = 0, nearest = std::numeric_limits<double>::infinity();
+  for (const TetrahedronIndex i : scene.stars[s])
+    for (const SampleIndex v : scene.t.tetrahedra[i])
+      if (v != s) nearest = std::min(nearest, distance(scene.t.positions[v], scene.t.positions[s]));
   TetrahedronIndex best;
   for (const TetrahedronIndex i : scene.stars[s]) {
     if (!moves.is_open(i)) continue;
@@ -19,6 +28,10 @@ TetrahedronIndex best_tetrahedron(const Moves& moves, SampleIndex s) {
     while (v[k] != s) ++k;
     const TetrahedronIndex across = scene.t.neighbours[i][k];
     if (!across.valid() || moves.labels()[across] == moves.labels()[i]) continue;
+    double spacing = 0; // of the triangle's samples
+    for (const SampleIndex other : v)
+      if (other != s && !scene.t.is_corner(other)) spacing += static_cast<double>(scene.model.spacing[other.value]) / 3;
+    if (nearest > max_loneliness * spacing) continue;
     const double cost = moves.labels().cost_of(i);
     if (cost >= least) continue;
     least = cost;

@@ -2,6 +2,7 @@
 // What people bring that is no statue: parts with sharp edges, thin walls, tiny bodies, noise beside none.
 #include <eigencrust/eigencrust.h>
 #include <eigencrust/error.h>
+#include <eigencrust/io.h>
 
 #include <gmock/gmock.h>
 
@@ -107,6 +108,13 @@ TEST(OrdinaryParts, AScrapIsNoSuccess) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::no_surface);
   }
+}
+
+TEST(OrdinaryParts, NothingReachesForTheStrayPointsUnderTheTeapot) {
+  const PointCloud cloud = read_point_cloud(std::filesystem::path(EIGENCRUST_SOURCE_DIR) / "examples/teapot_scan.ply");
+  const Result result = reconstruct(cloud);
+  EXPECT_EQ(result.report.mesh.genus, 1);
+  EXPECT_GT(result.report.mesh.bounds.min.z, -0.01); // the teapot stands on z = 0; a stray point at -0.13 was taken in
 }
 
 } // namespace
