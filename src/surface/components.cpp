@@ -1,30 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which pieces of the surface are kept (not in the paper, which keeps all).
 #include <algorithm>
-#include <limits>
+#include <array>
+#include <functional>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <eigencrust/stages.h>
 #include <eigencrust/validate.h>
 
+#include "geometry/nearest.h"
 #include "parallel/threads.h"
+#include "samples/local_frame.h"
 #include "surface/components.h"
 #include "surface/drop_triangles.h"
 
 namespace eigencrust {
 namespace {
 
-// docs/decisions/0004: specks, pieces lost in the noise, and pieces that the samples do not bear out.
+// docs/decisions/0004: specks, pieces lost in the noise, pieces that the samples do not bear out, and pieces of a
+// filled volume.
 constexpr double speck_vertices = 20, speck_share = 5e-4;
-constexpr double extent_in_grid_spacings = 4;
+constexpr double extent_in_sigmas = 5;
 constexpr double least_support = 0.4;
+// Samples looked at around each vertex: one in seven such sets is flat where samples fill space.
+constexpr std::size_t neighbourhood = 10;
+// A piece of a volume that samples fill passes by a quarter of them and more; one of a surface, hardly any.
+constexpr double most_passed = 0.1;
 
 struct Piece {
   std::vector<std::uint32_t> triangles;
-  std::uint32_t vertices = 0;
+  std::vector<std::uint32_t> vertices;
   double support = 0; ///< mean over the area
-  double extent = 0;  ///< diagonal of its box in mean grid spacings; infinite where there is no noise
+  double extent = 0;  ///< diagonal of its box in mean deviations of the noise; infinite where there is no noise
   Vec3 centre;
 };
 
@@ -33,31 +42,30 @@ double area(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& v) {
 }
 
 /// \param met vertices that this function has met; marks those of the piece
-void measure(const Surface& surface, std::span<const float> grid_spacing, std::uint32_t number, Piece& piece,
+void measure(const Surface& surface, std::span<const float> noise, std::uint32_t number, Piece& piece,
              std::vector<std::uint32_t>& met) {
-  std::vector<std::uint32_t> vertices;
   double supported = 0, whole = 0;
   for (const std::uint32_t i : piece.triangles) {
     const auto& v = surface.mesh.triangles[i];
     for (const std::uint32_t corner : v)
-      if (std::exchange(met[corner], number) != number) vertices.push_back(corner);
+      if (std::exchange(met[corner], number) != number) piece.vertices.push_back(corner);
     const double a = area(surface.mesh, v);
     supported += a * static_cast<double>(surface.support[i]);
     whole += a;
   }
   piece.support = whole > 0 ? supported / whole : 0;
-  piece.vertices = static_cast<std::uint32_t>(vertices.size());
+  const auto count = static_cast<double>(piece.vertices.size());
   Box3 box;
-  double noise = 0;
-  for (const std::uint32_t v : vertices) {
+  double sigma = 0;
+  for (const std::uint32_t v : piece.vertices) {
     box.add(surface.mesh.vertices[v]);
-    piece.centre = piece.centre + (1.0 / piece.vertices) * surface.mesh.vertices[v];
-    if (!grid_spacing.empty()) noise += static_cast<double>(grid_spacing[surface.sample_of[v].value]) / piece.vertices;
+    piece.centre = piece.centre + (1 / count) * surface.mesh.vertices[v];
+    if (!noise.empty()) sigma += static_cast<double>(noise[surface.sample_of[v].value]) / count;
   }
-  piece.extent = box.diagonal() / noise; // no noise: infinite
+  piece.extent = box.diagonal() / sigma; // no noise: infinite
 }
 
-std::vector<Piece> measure_pieces(const Surface& surface, std::span<const float> grid_spacing, const Threads& threads) {
+std::vector<Piece> measure_pieces(const Surface& surface, std::span<const float> noise, const Threads& threads) {
   const std::vector<std::uint32_t> component = triangle_components(surface.mesh, threads.size());
   std::vector<Piece> pieces;
   for (std::uint32_t i = 0; i < component.size(); ++i) {
@@ -65,35 +73,79 @@ std::vector<Piece> measure_pieces(const Surface& surface, std::span<const float>
     pieces[component[i]].triangles.push_back(i);
   }
   std::vector<std::uint32_t> met(surface.mesh.vertices.size(), SampleIndex::none);
-  for (std::uint32_t c = 0; c < pieces.size(); ++c) measure(surface, grid_spacing, c, pieces[c], met);
+  for (std::uint32_t c = 0; c < pieces.size(); ++c) measure(surface, noise, c, pieces[c], met);
   return pieces;
 }
 
-std::vector<std::uint8_t> choose(const std::vector<Piece>& pieces, const KeepComponents& keep) {
+/// Tells pieces of surface from pieces of a volume that samples fill, as clumps of outliers do.
+class FilledVolumes {
+ public:
+  FilledVolumes(const Surface& surface, const Tetrahedralization& t, std::span<const float> noise)
+      : surface_(surface),
+        positions_(t.positions.raw().data(), t.sample_count),
+        noise_(noise),
+        tree_(positions_),
+        met_(t.sample_count, 0),
+        on_surface_(t.sample_count, 0) {
+    for (const SampleIndex s : surface.sample_of) on_surface_[s.value] = 1;
+  }
+
+  /// Are most neighbourhoods thicker than surface and noise explain, and are samples among them passed by?
+  bool hold(const Piece& piece) {
+    std::size_t thick = 0, passed = 0;
+    for (const std::uint32_t v : piece.vertices) {
+      const std::uint32_t s = surface_.sample_of[v].value;
+      std::array<std::uint32_t, neighbourhood> index{};
+      std::array<double, neighbourhood> square{};
+      const auto around =
+          std::span(index).first(tree_.nearest(positions_[s], neighbourhood, index.data(), square.data()));
+      const LocalFrame frame = local_frame(positions_, around, positions_[s]);
+      const double sigma = noise_.empty() ? 0 : static_cast<double>(noise_[s]);
+      thick += !frame.is_flat() && frame.variance[0] > sigma * sigma;
+      for (const std::uint32_t n : around) passed += !std::exchange(met_[n], 1) && !on_surface_[n];
+    }
+    const auto vertices = static_cast<double>(piece.vertices.size());
+    return 2 * static_cast<double>(thick) > vertices && static_cast<double>(passed) > most_passed * vertices;
+  }
+
+ private:
+  const Surface& surface_;
+  std::span<const Vec3> positions_;
+  std::span<const float> noise_;
+  PointTree tree_;
+  std::vector<std::uint8_t> met_, on_surface_;
+};
+
+/// The largest piece always stays: a cloud of ten points still has a surface.
+/// \param order pieces, the largest first
+std::vector<std::uint8_t> supported(const std::vector<Piece>& pieces, std::span<const std::uint32_t> order,
+                                    const std::function<FilledVolumes()>& volumes) {
   std::vector<std::uint8_t> kept(pieces.size(), 1);
+  std::optional<FilledVolumes> filled;
+  for (const std::uint32_t i : order.subspan(std::min<std::size_t>(1, order.size()))) {
+    const Piece& piece = pieces[i];
+    const double least = speck_vertices + speck_share * static_cast<double>(pieces[order[0]].vertices.size());
+    kept[i] = static_cast<double>(piece.vertices.size()) >= least && piece.extent >= extent_in_sigmas &&
+              piece.support >= least_support;
+    if (!kept[i]) continue;
+    if (!filled) filled.emplace(volumes());
+    kept[i] = !filled->hold(piece);
+  }
+  return kept;
+}
+
+std::vector<std::uint8_t> choose(const std::vector<Piece>& pieces, const KeepComponents& keep,
+                                 const std::function<FilledVolumes()>& volumes) {
+  using Kind = KeepComponents::Kind;
+  std::vector<std::uint8_t> kept(pieces.size(), 1);
+  if (keep.kind == Kind::all) return kept;
   std::vector<std::uint32_t> order(pieces.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return pieces[a].vertices > pieces[b].vertices; });
-  switch (keep.kind) {
-    case KeepComponents::Kind::all:
-      break;
-    case KeepComponents::Kind::largest:
-    case KeepComponents::Kind::count: {
-      const std::size_t count = keep.kind == KeepComponents::Kind::largest ? 1 : keep.count;
-      for (std::size_t i = count; i < order.size(); ++i) kept[order[i]] = 0;
-      break;
-    }
-    case KeepComponents::Kind::supported:
-      // The largest piece always stays: a cloud of ten points still has a surface.
-      for (std::size_t i = 1; i < order.size(); ++i) {
-        const Piece& piece = pieces[order[i]];
-        if (piece.vertices < speck_vertices + speck_share * pieces[order[0]].vertices ||
-            piece.extent < extent_in_grid_spacings || piece.support < least_support)
-          kept[order[i]] = 0;
-      }
-      break;
-  }
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return pieces[a].vertices.size() > pieces[b].vertices.size();
+  });
+  if (keep.kind == Kind::supported) return supported(pieces, order, volumes);
+  for (std::size_t i = keep.kind == Kind::largest ? 1 : keep.count; i < order.size(); ++i) kept[order[i]] = 0;
   return kept;
 }
 
@@ -122,15 +174,16 @@ void drop_triangles(std::span<const std::uint8_t> gone, Surface& surface) {
 }
 
 std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComponents& keep,
-                                                const Tetrahedralization& t, std::span<const float> grid_spacing,
+                                                const Tetrahedralization& t, std::span<const float> noise,
                                                 const Threads& threads) {
-  const std::vector<Piece> pieces = measure_pieces(surface, grid_spacing, threads);
-  const std::vector<std::uint8_t> kept = choose(pieces, keep);
+  const std::vector<Piece> pieces = measure_pieces(surface, noise, threads);
+  const std::vector<std::uint8_t> kept = choose(pieces, keep, [&] { return FilledVolumes(surface, t, noise); });
   std::vector<DroppedComponent> dropped;
   std::vector<std::uint8_t> gone(surface.mesh.triangles.size(), 0);
   for (std::size_t c = 0; c < pieces.size(); ++c) {
     if (kept[c]) continue;
-    dropped.push_back({pieces[c].vertices, static_cast<std::uint32_t>(pieces[c].triangles.size()), pieces[c].support,
+    dropped.push_back({static_cast<std::uint32_t>(pieces[c].vertices.size()),
+                       static_cast<std::uint32_t>(pieces[c].triangles.size()), pieces[c].support,
                        pieces[c].centre + t.origin});
     for (const std::uint32_t i : pieces[c].triangles) gone[i] = 1;
   }

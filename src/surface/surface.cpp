@@ -70,7 +70,7 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels(), threads); });
   run.product("surface", [&] { return snapshot_of_surface(t, surface); });
   run.stage("support", [&] { measure_support(t, labels, model, grid, surface, threads); });
-  run.stage("components", [&] { return filter_components(surface, options.components, t, grid, threads); });
+  run.stage("components", [&] { return filter_components(surface, options.components, t, model.noise, threads); });
   require_surface(surface);
   if (options.components.kind == KeepComponents::Kind::supported) require_samples_near(surface, scene, threads);
   const bool one_sided = options.facade.has_value() || evidence.one_sided.has_value();
@@ -81,7 +81,7 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   });
   if (options.trim) {
     trim(std::move(unsupported.marked), surface);
-    describe(filter_components(surface, options.components, t, grid, threads), run);
+    describe(filter_components(surface, options.components, t, model.noise, threads), run);
     require_trimmed(surface);
   }
   return surface;
