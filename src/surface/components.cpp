@@ -28,6 +28,8 @@ constexpr double least_support = 0.4;
 constexpr std::size_t neighbourhood = 10;
 // A piece of a volume that samples fill passes by a quarter of them and more; one of a surface, hardly any.
 constexpr double most_passed = 0.1;
+// Of all samples: a larger part is no clump of outliers, and thick perhaps because its noise could not be measured.
+constexpr double most_in_clump = 0.01;
 
 struct Piece {
   std::vector<std::uint32_t> triangles;
@@ -90,8 +92,11 @@ class FilledVolumes {
     for (const SampleIndex s : surface.sample_of) on_surface_[s.value] = 1;
   }
 
-  /// Are most neighbourhoods thicker than surface and noise explain, and are samples among them passed by?
+  /// Is it no large part, are most neighbourhoods thicker than surface and noise explain, and are samples among them
+  /// passed by?
   bool hold(const Piece& piece) {
+    const auto vertices = static_cast<double>(piece.vertices.size());
+    if (vertices > most_in_clump * static_cast<double>(positions_.size())) return false;
     std::size_t thick = 0, passed = 0;
     for (const std::uint32_t v : piece.vertices) {
       const std::uint32_t s = surface_.sample_of[v].value;
@@ -104,7 +109,6 @@ class FilledVolumes {
       thick += !frame.is_flat() && frame.variance[0] > sigma * sigma;
       for (const std::uint32_t n : around) passed += !std::exchange(met_[n], 1) && !on_surface_[n];
     }
-    const auto vertices = static_cast<double>(piece.vertices.size());
     return 2 * static_cast<double>(thick) > vertices && static_cast<double>(passed) > most_passed * vertices;
   }
 

@@ -40,6 +40,23 @@ TEST(OrdinaryParts, TinyBodiesAreTheirHull) {
   EXPECT_NEAR(octahedron.volume, 4.0 / 3, 1e-9);
 }
 
+TEST(OrdinaryParts, ClumpsOfOutliersAreNoBodies) {
+  const Points ball = clouds::sphere(30000);
+  Points clumps, bodies;
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    const Vec3 place{k % 2 == 0 ? 2.0 : -2.0, k < 2 ? 2.0 : -2.0, 0};
+    clumps = clouds::joined(clumps, clouds::moved(clouds::random_box(200, k, 0.1), place));
+    // As thick as its neighbourhoods are wide, but no sample is passed by.
+    bodies = clouds::joined(bodies, clouds::moved(clouds::cube_surface(3), place, 0.05));
+  }
+  const MeshSummary without = mesh_of(clouds::joined(ball, clumps));
+  EXPECT_EQ(without.components, 1u);
+  EXPECT_EQ(without.vertices, 30000u);
+  const MeshSummary with = mesh_of(clouds::joined(ball, bodies));
+  EXPECT_EQ(with.components, 5u);
+  EXPECT_EQ(with.vertices, 30000u + 4 * 56);
+}
+
 /// Two spheres one within the other, `wall` apart, with one spacing of about 0.036.
 Points hollow_ball(double wall, double noise, std::uint64_t seed) {
   const double inner = 1 - wall;

@@ -32,7 +32,7 @@ struct Hull {
     model = sample_model(std::span(p.t.positions.raw()).first(p.t.sample_count), std::nullopt, threads);
     surface = extract_surface(p.t, labels.labels(), Threads(2));
   }
-  std::vector<float> support(std::span<const float> grid_spacing = {}) {
+  std::vector<float> support(std::span<const float> noise = {}) {
     measure_support(p.t, labels, model, grid_spacing, surface, threads);
     return surface.support;
   }
@@ -122,8 +122,8 @@ struct TwoPieces {
     for (std::size_t i = 0; i < surface.support.size(); ++i)
       if (is_small(i)) surface.support[i] = support;
   }
-  std::vector<DroppedComponent> filter(std::span<const float> grid_spacing = {}) {
-    return filter_components(surface, {Kind::supported, 1}, p.t, grid_spacing, Threads(2));
+  std::vector<DroppedComponent> filter(std::span<const float> noise = {}) {
+    return filter_components(surface, {Kind::supported, 1}, p.t, noise, Threads(2));
   }
 };
 
@@ -178,11 +178,11 @@ TEST(SupportedComponents, SupportIsTheMeanOverTheArea) {
 }
 
 TEST(SupportedComponents, PiecesWithinTheNoiseAreDropped) {
-  // The box of the small sphere has a diagonal of about 2 √3 = 3.46; fewer than four grid spacings are noise.
-  for (const auto& [grid_spacing, count] : {std::pair(0.8f, 0u), std::pair(0.9f, 1u)}) {
+  // The box of the small sphere has a diagonal of about 2 √3 = 3.46; fewer than five deviations are noise.
+  for (const auto& [sigma, count] : {std::pair(0.67f, 0u), std::pair(0.72f, 1u)}) {
     TwoPieces pieces;
-    const std::vector<float> everywhere(pieces.p.t.sample_count, grid_spacing);
-    EXPECT_EQ(pieces.filter(everywhere).size(), count) << grid_spacing;
+    const std::vector<float> everywhere(pieces.p.t.sample_count, sigma);
+    EXPECT_EQ(pieces.filter(everywhere).size(), count) << sigma;
   }
 }
 
