@@ -127,7 +127,7 @@ inline Prepared prepare(const Points& points, unsigned threads = 1) {
   p.t = tetrahedralize(std::move(samples), team);
   p.stars = vertex_stars(p.t, team);
   p.poles = find_poles(p.t, p.stars, {}, Weights::evidence, team);
-  p.known = known_labels(p.t, {}, {}, {}, team);
+  p.known = known_labels(p.t, p.stars, {}, {}, {}, team);
   return p;
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 Labels named_labels(const Scene& scene, const Options& options, const Threads& threads) {
   const Tetrahedralization& t = scene.tetrahedralization;
-  Labels labels = known_labels(t, options.outside_points, options.inside_points, options.facade, threads);
+  Labels labels = known_labels(t, scene.stars, options.outside_points, options.inside_points, options.facade, threads);
   name_poles(t, scene.poles, options.outside_points, options.inside_points, threads, labels);
   return labels;
 }

@@ -42,8 +42,8 @@ T sum_blocks(const Threads& threads, std::size_t n, Part&& part, std::size_t blo
 }
 
 /// Sorts in blocks on all threads, then merges pairs of blocks; equal items keep no order.
-template <class T>
-void sort_blocks(const Threads& threads, std::vector<T>& items) {
+template <class Range>
+void sort_blocks(const Threads& threads, Range& items) {
   // The number of blocks is fixed: std::sort of a block and the merges are deterministic.
   constexpr std::size_t blocks = 16;
   const std::size_t n = items.size();

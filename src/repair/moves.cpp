@@ -12,9 +12,9 @@ namespace eigencrust {
 namespace {
 
 // What a sample is worth that the surface passes by, in units of the energy, where a face costs 0.01 (well borne out by
-// the samples) to 2 (not at all): as much as the ties of the three samples of a triangle can say for the space over it,
-// 3 × 0.1 e⁴ (settle/data_term.cpp). On clean scans nineteen of twenty cost less.
-constexpr double sample_price = 16.4;
+// the samples) to 2 (not at all): less than the ties of the three samples of a triangle can say for the space over it,
+// 3 × 0.1 e⁴ (settle/data_term.cpp). On clean scans nineteen of twenty cost less (docs/decisions/0027).
+constexpr double sample_price = 13;
 // Of the samples on the surface: as many passed by are noise or outliers, no one misses them.
 constexpr double most_passed = 0.04;
 // A piece more costs a fan of three faces that nothing bears out, and as much as a handle.

@@ -25,6 +25,20 @@ struct Keyed {
   }
 };
 
+/// Along the Hilbert curve; what falls into one of its cells, along the cell's own curve: a stray row far away makes
+/// the cells as large as the object.
+void sort_along_curve(std::span<Keyed> samples, const Box3& box, const Threads& threads) {
+  for_each_index(threads, samples.size(),
+                 [&](std::size_t i) { samples[i].key = hilbert_key(samples[i].position, box); });
+  sort_blocks(threads, samples);
+  for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
+    Box3 cell;
+    for (end = begin; end < samples.size() && samples[end].key == samples[begin].key; ++end)
+      cell.add(samples[end].position);
+    if (cell.diagonal() > 0) sort_along_curve(samples.subspan(begin, end - begin), cell, threads);
+  }
+}
+
 void check_extent(const Box3& box) {
   // Squares and cubes of lengths must stay within the range of double.
   const double extent = box.diagonal();
@@ -75,8 +89,7 @@ Samples prepare_samples(std::span<const Vec3> points, const Threads& threads) {
   keyed.reserve(finite);
   for (std::uint32_t row = 0; row < points.size(); ++row)
     if (is_finite(points[row])) keyed.push_back({0, points[row] - samples.origin, row});
-  for_each_index(threads, keyed.size(), [&](std::size_t i) { keyed[i].key = hilbert_key(keyed[i].position, box); });
-  sort_blocks(threads, keyed);
+  sort_along_curve(keyed, box, threads);
 
   // Rows with equal coordinates follow one another; the first has the smallest row.
   samples.positions.raw().reserve(finite + 8);

@@ -14,7 +14,7 @@ using clouds::Prepared;
 struct FirstStage {
   explicit FirstStage(const Points& points) : p(clouds::prepare(points)) {
     const Threads threads(1);
-    known = known_labels(p.t, {}, {}, {}, threads);
+    known = known_labels(p.t, p.stars, {}, {}, {}, threads);
     graph = pole_graph(p.t, p.stars, p.poles, known, {}, {}, false, threads);
     partition = partition_poles(graph, {}, true, threads, &component);
   }

@@ -140,7 +140,7 @@ TEST(LineOfSight, WhatTheUserNamedStands) {
   Points named_inside;
   for (const double x : {4.5, 5.5, 6.5})
     for (const double y : {4.5, 5.5, 6.5}) named_inside.push_back({x, y, 2.5});
-  const Labels named = known_labels(p.t, {}, named_inside, {}, Threads(1));
+  const Labels named = known_labels(p.t, p.stars, {}, named_inside, {}, Threads(1));
   const SightCrossings crossings = sight_crossings(p.t, p.stars, lines, Weights::paper, named, Threads(1));
   const Labels labels = line_of_sight(p.t, p.stars, lines, crossings, {Weights::paper}, named, Threads(1)).labels;
   std::size_t inside = 0;

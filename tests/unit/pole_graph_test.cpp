@@ -13,7 +13,9 @@ using clouds::Points;
 using clouds::Prepared;
 using Pair = std::pair<std::uint32_t, std::uint32_t>; // poles, smaller first
 
-Labels known_of(const Prepared& p, const Points& inside = {}) { return known_labels(p.t, {}, inside, {}, Threads(1)); }
+Labels known_of(const Prepared& p, const Points& inside = {}) {
+  return known_labels(p.t, p.stars, {}, inside, {}, Threads(1));
+}
 
 double cosine(const Sphere& a, const Sphere& b) {
   return (squared_norm(a.centre - b.centre) - a.radius * a.radius - b.radius * b.radius) / (2 * a.radius * b.radius);

@@ -96,6 +96,19 @@ TEST(Samples, OrderDependsNeitherOnRowsNorOnThreads) {
   }
 }
 
+TEST(Samples, AStrayRowDoesNotSpoilTheOrder) {
+  // Cells as large as the object: all samples of the ball have one key at first.
+  const Points ball = clouds::sphere(5000);
+  const auto way = [](const Samples& samples) {
+    double sum = 0;
+    for (std::uint32_t i = 1; i < samples.positions.size(); ++i)
+      sum += std::min(2.0, distance(samples.positions.raw()[i - 1], samples.positions.raw()[i]));
+    return sum;
+  };
+  const double alone = way(prepare_samples(ball, Threads(2)));
+  EXPECT_LT(way(prepare_samples(clouds::joined(ball, {{1e9, 2e8, -3e8}}), Threads(2))), 1.2 * alone);
+}
+
 TEST(Samples, HilbertCurveVisitsEveryCellAndOnlyMovesToNeighbours) {
   // Middles of 16³ cells: the curve of that order passes from each to a cell that shares a face.
   Points middles = clouds::moved(clouds::lattice(16, 16, 16), {0.5, 0.5, 0.5});

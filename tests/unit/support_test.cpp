@@ -32,7 +32,7 @@ struct Hull {
     model = sample_model(std::span(p.t.positions.raw()).first(p.t.sample_count), std::nullopt, threads);
     surface = extract_surface(p.t, labels.labels(), Threads(2));
   }
-  std::vector<float> support(std::span<const float> noise = {}) {
+  std::vector<float> support(std::span<const float> grid_spacing = {}) {
     measure_support(p.t, labels, model, grid_spacing, surface, threads);
     return surface.support;
   }
