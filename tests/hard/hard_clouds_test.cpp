@@ -21,7 +21,8 @@ struct Wanted {
   double volume = 0, within = 0.02;   ///< relative
   std::uint64_t most_components = 1;  ///< and no less than one
   std::optional<std::int64_t> genus = 0;
-  const char* warning = nullptr; ///< part of one that must be given; null: none at all
+  const char* warning = nullptr;    ///< part of one that must be given; null: none at all
+  std::uint64_t least_vertices = 0; ///< samples on the surface
 };
 struct HardCloud {
   const char* defect;
@@ -158,6 +159,20 @@ const std::vector<HardCloud>& hard_clouds() {
       {"NoiseOfThreeSpacings", [] { return noisy_sphere(60000, 3 * 3.5 / std::sqrt(60000.0), 4); }, solid(ball, 0.03)},
       {"AHoleInTheSampling", [] { return kept(clouds::sphere(8000), [](const Vec3& p) { return p.z < 0.9; }); },
        solid(ball - pi * 0.01 * (3 - 0.1) / 3)},
+      // Samples that stand alone must not say which side is which: the ball would be turned inside out.
+      {"OneStrayRowInSeven",
+       [] { return clouds::joined(clouds::sphere(3000), clouds::random_box(450, 3, 2)); },
+       {{}, ball, 0.01, 1, 0, nullptr, 3000}},
+      // The tube is six deviations of its noise thick; what is curved is no noise, and the middle is where it was.
+      {"TubeThatIsHardlyThickerThanItsNoise",
+       [] { return clouds::jittered(clouds::torus(1, 0.3, 160, 50), 0.09, 7); },
+       {{}, 2 * pi * pi * 0.09, 0.013, 1, 1}},
+      // No sample may be passed by.
+      {"TwoScansHalfASpacingApart",
+       [] {
+         return clouds::joined(clouds::sphere(2500), clouds::sphere(2300, 1, {0.02, 0, 0}));
+       },
+       {{}, ball, 0.01, 1, 0, nullptr, 4800}},
       {"FlatWithin1e-6Spacings", nearly_flat, refused(no_surface)},
       {"TwoDensitiesOneToAThousand", two_densities, told(ball, 0.08, "invented")},
       {"WallOfSevenTenthsOfASpacing", [] { return plate(0.7); }, solid(630, 0.01)},
@@ -209,6 +224,7 @@ TEST_P(HardClouds, GiveWhatTheyMust) {
     EXPECT_LE(m.components, wanted.most_components);
     EXPECT_EQ(m.genus, wanted.genus.value_or(m.genus));
     EXPECT_NEAR(m.volume / wanted.volume, 1, wanted.within);
+    EXPECT_GE(m.vertices, wanted.least_vertices);
     if (wanted.warning == nullptr)
       EXPECT_THAT(result.report.warnings, testing::IsEmpty());
     else
