@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Builds everything and runs all tests: format, unit, property, command line, installed package, and the
-# unit tests once more under the address and undefined-behaviour sanitizers.
+# Builds everything and runs all tests: format, unit, property, hard clouds, command line, installed package, and the
+# unit tests and the hard clouds once more under the address and undefined-behaviour sanitizers.
 # Real scans are looked for in $EIGENCRUST_DATA, else in ../shared/data; tests skip without them.
 # Usage: scripts/test.sh [options for ctest], for example scripts/test.sh -R cli
 set -euo pipefail
@@ -15,10 +15,10 @@ install_packages "${build_packages[@]}" "${test_packages[@]}"
 
 step "sanitizer build"
 configure asan build-asan
-cmake --build "$repository/build-asan" --parallel "$(job_count)" --target unit_tests
+cmake --build "$repository/build-asan" --parallel "$(job_count)" --target unit_tests hard_tests
 
 step "build"
-configure test build-test -DEIGENCRUST_SANITIZED_TESTS="$repository/build-asan/unit_tests"
+configure test build-test -DEIGENCRUST_SANITIZED_BUILD="$repository/build-asan"
 cmake --build "$repository/build-test" --parallel "$(job_count)"
 
 step "tests"

@@ -5,6 +5,7 @@
 #include <eigencrust/memory_forecast.h>
 
 #include "evidence/evidence.h"
+#include "invariants.h"
 #include "points/point_results.h"
 #include "poles/solve.h"
 #include "repair/repair.h"
@@ -27,16 +28,22 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
 
   // §3: S+ = the samples and the corners of a cube, T = Delaunay(S+), and the two poles of every sample
   auto scene = make_scene(cloud, context);
+  EIGENCRUST_SOUND(scene, cloud);
   // §3.1: what is known beforehand, from the cube, the user and the lines of sight
   const auto evidence = gather_evidence(cloud, scene, context);
+  EIGENCRUST_SOUND(evidence, scene);
   // §3.1, §3.2, §3.3: the eigenvector of the smallest eigenvalue of L x = λ D x on the pole graph G labels the poles
   const auto poles = label_poles(scene, evidence, context);
+  EIGENCRUST_SOUND(poles, scene, evidence);
   // §3.4: all tetrahedra, by the least energy
   auto settled = settle(scene, evidence, poles, context);
+  EIGENCRUST_SOUND(settled, scene, options);
   // §3.5: a manifold
   auto labels = repair(scene, evidence, std::move(settled), context);
+  EIGENCRUST_SOUND(labels, scene, options);
   // §3: the faces between inside and outside
   auto surface = make_surface(cloud, scene, evidence, labels, context);
+  EIGENCRUST_SOUND(surface, scene, labels, options);
   // Which rows lie on it, and which way they look
   auto points = point_results(scene, surface, context);
   // §3.6: smoothing; the vertices get back what the input said of them

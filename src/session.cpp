@@ -3,6 +3,7 @@
 #include <eigencrust/session.h>
 
 #include "evidence/evidence.h"
+#include "invariants.h"
 #include "numerics/spreading.h"
 #include "points/point_results.h"
 #include "poles/solve.h"
@@ -35,8 +36,11 @@ struct Session::Kept {
     Run run(report, observer);
     const Context context{unnamed, run, threads};
     scene = make_scene(cloud, context);
+    EIGENCRUST_SOUND(scene, cloud);
     evidence = gather_evidence(cloud, scene, context);
+    EIGENCRUST_SOUND(evidence, scene);
     solved = solve_poles(scene, evidence, context);
+    EIGENCRUST_SOUND(solved.graph.graph);
     report.stages.clear();
     measure_sides();
     node_of =
@@ -108,9 +112,15 @@ Result Session::label(std::span<const Vec3> outside_points, std::span<const Vec3
     evidence = with_points(kept_->evidence, scene, context);
     first = kept_->adapted_to(evidence);
   });
+  EIGENCRUST_SOUND(evidence, scene);
   const auto poles = label_poles(scene, evidence, kept_->solved, first, context);
-  auto labels = repair(scene, evidence, settle(scene, evidence, poles, context), context);
+  EIGENCRUST_SOUND(poles, scene, evidence);
+  auto settled = settle(scene, evidence, poles, context);
+  EIGENCRUST_SOUND(settled, scene, options);
+  auto labels = repair(scene, evidence, std::move(settled), context);
+  EIGENCRUST_SOUND(labels, scene, options);
   auto surface = make_surface(cloud, scene, evidence, labels, context);
+  EIGENCRUST_SOUND(surface, scene, labels, options);
   auto points = point_results(scene, surface, context);
   result.mesh = finish(std::move(surface), cloud, scene, context);
   check(result.mesh, cloud, scene, {.self_intersections = options.smooth > 0, .threads = options.threads}, context);

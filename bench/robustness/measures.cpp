@@ -8,9 +8,9 @@
 #include <eigencrust/io.h>
 #include <eigencrust/metrics.h>
 
-#include "tetrahedra/circumsphere.h"
 #include "geometry/nearest.h"
 #include "parallel/threads.h"
+#include "tetrahedra/circumsphere.h"
 
 namespace eigencrust::bench {
 namespace {
