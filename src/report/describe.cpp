@@ -11,6 +11,7 @@
 #include "report/run.h"
 #include "samples/measures.h"
 #include "settle/minimum_energy.h"
+#include "surface/surface.h"
 #include "surface/trim.h"
 
 namespace eigencrust {
@@ -133,6 +134,16 @@ void describe(const std::vector<DroppedComponent>& dropped, Run& run) {
     if (static_cast<double>(piece.vertices) > worth_a_word * static_cast<double>(run.report().points))
       run.warn("a piece with " + std::to_string(piece.vertices) +
                " vertices was left out as a part that the samples do not bear out; --components all keeps it");
+}
+
+void describe(const SamplesApart& samples, Run& run) {
+  run.count("components", "samples_apart", static_cast<double>(samples.apart));
+  const double share = static_cast<double>(samples.apart) / static_cast<double>(samples.all);
+  constexpr double usual = 0.1;
+  if (share > usual)
+    run.warn(std::to_string(std::lround(100 * share)) +
+             " % of the samples lie apart from the surface, and are no outliers: parts are missing, perhaps walls far "
+             "thinner than the samples are apart; look at the result before you use it");
 }
 
 void describe(const UnsupportedTriangles& unsupported, Run& run) {

@@ -20,9 +20,15 @@ void require_surface(const Surface& surface) {
                 "check that the points surround a volume, give less --noise or off, or name an inside point");
 }
 
+/// What is no farther from the surface is explained by noise and spacing.
+double near_surface(const SampleModel& model, SampleIndex s) {
+  constexpr double near_in_sigmas = 3;
+  return near_in_sigmas * static_cast<double>(model.noise[s.value]) + static_cast<double>(model.spacing[s.value]);
+}
+
 /// A scrap is no success: of so many samples some must lie on the surface, or as near as noise and spacing explain.
 void require_samples_near(const Surface& surface, const Scene& scene, const Threads& threads) {
-  constexpr double least_share = 0.05, near_in_sigmas = 3, near_in_spacings = 1;
+  constexpr double least_share = 0.05;
   const Tetrahedralization& t = scene.tetrahedralization;
   const auto needed = static_cast<std::uint64_t>(std::ceil(least_share * t.sample_count));
   if (surface.sample_of.size() >= needed) return;
@@ -34,8 +40,7 @@ void require_samples_near(const Surface& surface, const Scene& scene, const Thre
         std::uint64_t count = 0;
         for (std::size_t s = begin; s < end; ++s)
           count += tree.nearest(t.positions.raw()[s]).distance <=
-                   near_in_sigmas * static_cast<double>(model.noise[s]) +
-                       near_in_spacings * static_cast<double>(model.spacing[s]);
+                   near_surface(model, SampleIndex{static_cast<std::uint32_t>(s)});
         return count;
       },
       1024);
@@ -45,6 +50,29 @@ void require_samples_near(const Surface& surface, const Scene& scene, const Thre
                     " samples lie on the surface that was found, or near it",
                 "check that the points surround a volume with walls at least a spacing thick; --components all keeps "
                 "every piece, --noise off trusts every sample");
+}
+
+/// Samples that are neither lonely nor noisy, and yet neither on the surface nor beside a neighbour that is.
+SamplesApart samples_apart(const Surface& surface, const Scene& scene, const Threads& threads) {
+  const Tetrahedralization& t = scene.tetrahedralization;
+  const SampleModel& model = scene.measures.model;
+  std::vector<std::uint8_t> on_surface(t.positions.size(), 0);
+  for (const SampleIndex s : surface.sample_of) on_surface[s.value] = 1;
+  const auto is_apart = [&](SampleIndex s) {
+    if (on_surface[s.value] || model.isolated[s.value] > 0 || model.is_noisy(s)) return false;
+    const auto star = scene.stars[s];
+    return std::none_of(star.begin(), star.end(), [&](TetrahedronIndex i) {
+      return std::any_of(t.tetrahedra[i].begin(), t.tetrahedra[i].end(), [&](SampleIndex n) {
+        return on_surface[n.value] && distance(t.positions[n], t.positions[s]) <= near_surface(model, s);
+      });
+    });
+  };
+  const auto apart = sum_blocks<std::uint64_t>(threads, t.sample_count, [&](std::size_t begin, std::size_t end) {
+    std::uint64_t count = 0;
+    for (std::size_t s = begin; s < end; ++s) count += is_apart(SampleIndex{static_cast<std::uint32_t>(s)});
+    return count;
+  });
+  return {apart, t.sample_count};
 }
 
 void require_trimmed(const Surface& surface) {
@@ -73,6 +101,7 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   run.stage("components", [&] { return filter_components(surface, options.components, t, model.noise, threads); });
   require_surface(surface);
   if (options.components.kind == KeepComponents::Kind::supported) require_samples_near(surface, scene, threads);
+  describe(samples_apart(surface, scene, threads), run);
   const bool one_sided = options.facade.has_value() || evidence.one_sided.has_value();
   UnsupportedTriangles unsupported = run.stage("trim", [&] {
     auto marked = unsupported_triangles(t, model, rays_of(cloud, scene), one_sided, surface, threads);

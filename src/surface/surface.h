@@ -10,6 +10,11 @@
 
 namespace eigencrust {
 
+/// Samples that the surface leaves alone though neither noise nor loneliness explains it.
+struct SamplesApart {
+  std::uint64_t apart = 0, all = 0;
+};
+
 /// §3. The stages surface, support, components and trim.
 /// \throws Error{no_surface}
 Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence& evidence,

@@ -40,6 +40,18 @@ TEST(OrdinaryParts, TinyBodiesAreTheirHull) {
   EXPECT_NEAR(octahedron.volume, 4.0 / 3, 1e-9);
 }
 
+TEST(OrdinaryParts, WhatIsMissingIsTold) {
+  const auto warnings = [](double wall) {
+    const Points plate = clouds::lattice(31, 31, 2);
+    Points flat;
+    for (const Vec3& p : plate) flat.push_back({p.x, p.y, wall * p.z});
+    return reconstruct(clouds::cloud_of(flat), {}).report.warnings;
+  };
+  EXPECT_THAT(warnings(1), testing::IsEmpty());
+  // Two sheets a tenth of a spacing apart are none for which an inside could be found.
+  EXPECT_THAT(warnings(0.1), testing::Contains(testing::HasSubstr("apart from the surface")));
+}
+
 TEST(OrdinaryParts, ClumpsOfOutliersAreNoBodies) {
   const Points ball = clouds::sphere(30000);
   Points clumps, bodies;
