@@ -76,9 +76,8 @@ struct Session::Kept {
 
  private:
   void measure_sides() {
-    const PoleLabels labels =
-        label_poles(scene.tetrahedralization, scene.stars, scene.poles, solved.graph, solved.partition,
-                    solved.component, evidence.labels, scene.measures.isolated(), options.global_sign, threads);
+    const PoleLabels labels = label_poles(scene.tetrahedralization, scene.poles, solved.graph, solved.partition,
+                                          solved.component, evidence.labels, options.global_sign, threads);
     const auto& supers = solved.partition.supernode_value;
     outside_value = supers.empty() ? 0 : static_cast<float>(labels.reversed ? -supers[0] : supers[0]);
     inside_value = supers.size() > 1 ? static_cast<float>(supers[1]) : -outside_value;

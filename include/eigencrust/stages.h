@@ -137,10 +137,8 @@ Partition partition_poles(const PoleGraph& graph, const SolverOptions& options, 
                           std::vector<std::uint32_t>* component = nullptr, const Checkpoint& checkpoint = {});
 
 /// §3.2: labels from the signs of the partition, added to what is known. Nodes of components without a
-/// supernode take the side that their labelled neighbours by face vote for by two thirds, else none.
+/// supernode get none: nothing tells their sign.
 /// `trust` is the agreement Σ w x / Σ |w x| of a node's neighbours with its own sign, not below 0 (not in the paper).
-/// \param isolated > 0 where a sample stands alone; the poles of these samples say little of the global sign; may be
-/// empty
 struct PoleLabels {
   Labels labels;
   IndexedArray<TetrahedronIndex, std::uint8_t> trust; ///< agreement of labelled poles, 255: 1
@@ -149,10 +147,9 @@ struct PoleLabels {
   std::uint64_t left_to_stage_two = 0;                ///< poles of components whose side is open
   std::uint64_t contradicted = 0;                     ///< poles whose neighbours disagree
 };
-PoleLabels label_poles(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
-                       const PoleGraph& graph, const Partition& partition, std::span<const std::uint32_t> component,
-                       const Labels& known, std::span<const float> isolated, GlobalSign global_sign,
-                       const Threads& threads);
+PoleLabels label_poles(const Tetrahedralization& tetrahedralization, const Poles& poles, const PoleGraph& graph,
+                       const Partition& partition, std::span<const std::uint32_t> component, const Labels& known,
+                       GlobalSign global_sign, const Threads& threads);
 
 /// §3.3: removes the labels of questionable tetrahedra but for those known beforehand.
 /// \return how many

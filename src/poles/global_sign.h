@@ -10,12 +10,8 @@ namespace eigencrust {
 /// Evidence that positive components are outside, in [-1, 1]: 1 unanimous, -1 unanimous against.
 ///
 /// Two kinds of edges at the outside supernode speak. Attractive ones say that a pole is outside. The
-/// repulsive ones, from a sample whose other pole is known to be outside, say that a pole is inside;
-/// those of isolated samples (of all, if `isolated` is empty) count only as far as the sample's cell is long compared
-/// with the distance of its 8th nearest sample. An outlier's neighbours are far away, so it has no such cell and cannot
-/// forge evidence.
-double outside_evidence(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
-                        const PoleGraph& graph, const Partition& partition, const Labels& known,
-                        std::span<const float> isolated, const Threads& threads);
+/// repulsive ones, from a sample whose other pole is known to be outside, say that a pole is inside.
+double outside_evidence(const Tetrahedralization& tetrahedralization, const Poles& poles, const PoleGraph& graph,
+                        const Partition& partition, const Labels& known, const Threads& threads);
 
 } // namespace eigencrust

@@ -11,59 +11,6 @@
 namespace eigencrust {
 namespace {
 
-// Fewer labelled contacts than this share of its nodes say nothing of a component.
-constexpr double least_contacts = 0.5;
-// What the outside supernode reaches by no edge at all, and is no speck, is taken for inside.
-constexpr std::uint32_t least_inside_nodes = 20;
-
-/// Components without a supernode: their labelled face neighbours vote; two thirds decide. Without enough
-/// contacts, one whose nodes are all on one side is inside: the outside is joined to the supernode.
-std::uint64_t label_free_components(const Tetrahedralization& t, const Poles& poles, const PoleGraph& graph,
-                                    const Partition& partition, std::span<const std::uint32_t> component,
-                                    Labels& labels) {
-  std::uint32_t count = 0;
-  for (const std::uint32_t c : component) count = std::max(count, c + 1);
-  if (count <= 1) return 0;
-  // balance > 0: positive values of the component are outside.
-  std::vector<double> balance(count, 0), total(count, 0);
-  std::vector<std::uint32_t> size(count, 0), positive(count, 0);
-  const auto for_each_pole = [&](auto&& visit) {
-    for (PoleIndex p{0}; p.value < graph.node.size(); ++p.value)
-      if (graph.node[p].valid()) visit(graph.node[p].value, poles.tetrahedron[p]);
-  };
-  for_each_pole([&](std::uint32_t node, TetrahedronIndex tetrahedron) {
-    if (component[node] == 0 || partition.value[node] == 0) return;
-    ++size[component[node]];
-    positive[component[node]] += partition.value[node] > 0;
-    for (const TetrahedronIndex n : t.neighbours[tetrahedron]) {
-      if (!n.valid() || labels[n] == Label::unlabelled) continue;
-      const bool agrees = (labels[n] == Label::outside) == (partition.value[node] > 0);
-      balance[component[node]] += agrees ? 1 : -1;
-      total[component[node]] += 1;
-    }
-  });
-  for (std::uint32_t c = 1; c < count; ++c) {
-    if (total[c] >= least_contacts * size[c]) continue;
-    const bool one_sided = positive[c] == 0 || positive[c] == size[c];
-    total[c] = 1;
-    balance[c] = !one_sided || size[c] < least_inside_nodes ? 0 : positive[c] > 0 ? -1 : 1;
-  }
-  std::uint64_t open = 0;
-  std::vector<std::pair<TetrahedronIndex, Label>> decided;
-  for_each_pole([&](std::uint32_t node, TetrahedronIndex tetrahedron) {
-    const std::uint32_t c = component[node];
-    if (c == 0) return;
-    if (partition.value[node] == 0 || std::fabs(balance[c]) * 3 < total[c]) {
-      ++open;
-      return;
-    }
-    const bool outside = (partition.value[node] > 0) == (balance[c] > 0);
-    decided.emplace_back(tetrahedron, outside ? Label::outside : Label::inside);
-  });
-  for (const auto& [tetrahedron, label] : decided) labels[tetrahedron] = label;
-  return open;
-}
-
 /// How far a node's neighbours agree on its side, in [-1, 1]: Σ w x / Σ |w| |x|, times the node's sign.
 /// It does not depend on how large the vector is hereabouts, so a localized vector does no harm.
 double agreement(const SignedGraph& graph, const Partition& partition, std::uint32_t node) {
@@ -82,10 +29,9 @@ double agreement(const SignedGraph& graph, const Partition& partition, std::uint
 
 } // namespace
 
-PoleLabels label_poles(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles,
-                       const PoleGraph& graph, const Partition& partition, std::span<const std::uint32_t> component,
-                       const Labels& known, std::span<const float> isolated, GlobalSign global_sign,
-                       const Threads& threads) {
+PoleLabels label_poles(const Tetrahedralization& t, const Poles& poles, const PoleGraph& graph,
+                       const Partition& partition, std::span<const std::uint32_t> component, const Labels& known,
+                       GlobalSign global_sign, const Threads& threads) {
   PoleLabels result;
   result.labels = known;
   // The supernode's own component may be 0 when the vector is localized elsewhere; positive then stands.
@@ -94,7 +40,7 @@ PoleLabels label_poles(const Tetrahedralization& t, const VertexStars& stars, co
   // An inside supernode settles the matter: both supernodes then have known labels.
   const bool both_known = graph.graph.supernodes.size() > 1;
   if (global_sign == GlobalSign::vote && !both_known) {
-    result.vote = outside_evidence(t, stars, poles, graph, partition, known, isolated, threads);
+    result.vote = outside_evidence(t, poles, graph, partition, known, threads);
     if (result.vote != 0) outside_sign = result.vote > 0 ? 1 : -1;
     result.vote = std::fabs(result.vote);
   }
@@ -110,7 +56,11 @@ PoleLabels label_poles(const Tetrahedralization& t, const VertexStars& stars, co
   for (PoleIndex p{0}; p.value < graph.node.size(); ++p.value) {
     const std::uint32_t node = graph.node[p].value;
     if (!graph.node[p].valid()) continue;
-    if ((!component.empty() && component[node] != 0) || partition.value[node] == 0) continue;
+    // Nothing tells the sign of a component without a supernode: the energy decides.
+    if ((!component.empty() && component[node] != 0) || partition.value[node] == 0) {
+      ++result.left_to_stage_two;
+      continue;
+    }
     result.trust[poles.tetrahedron[p]] =
         static_cast<std::uint8_t>(std::lround(255 * std::clamp(agreed[node], 0.0, 1.0)));
     result.contradicted += agreed[node] < 0;
@@ -119,7 +69,6 @@ PoleLabels label_poles(const Tetrahedralization& t, const VertexStars& stars, co
     const bool outside = static_cast<double>(partition.value[node]) * outside_sign > 0;
     result.labels[tetrahedron] = outside ? Label::outside : Label::inside;
   }
-  result.left_to_stage_two = label_free_components(t, poles, graph, partition, component, result.labels);
   return result;
 }
 

@@ -62,21 +62,12 @@ double same_weight(const Sphere& a, const Sphere& b) {
   return std::exp(4 - 4 * std::max(cosine, -1.0));
 }
 
-/// Is one the other's opposite pole at some sample?
-bool is_pole_pair(const Poles& poles, const Lists& samples_of, std::uint32_t p, std::uint32_t q) {
-  const auto samples = samples_of[p];
-  return std::any_of(samples.begin(), samples.end(), [&](std::uint32_t s) {
-    const PolePair& pair = poles.of_sample.raw()[s];
-    return pair.first.value == q || pair.second.value == q;
-  });
-}
-
 /// Clusters of poles (docs/decisions/0025): balls that nearly coincide are on the same side, so each pole joins the
 /// largest ball around that its own nearly coincides with.
 class Contraction {
  public:
-  Contraction(const Poles& poles, const Lists& neighbours, const Lists& samples_of,
-              const std::vector<std::uint32_t>& node_of, std::span<const float> isolated, const Threads& threads)
+  Contraction(const Poles& poles, const Lists& neighbours, const std::vector<std::uint32_t>& node_of,
+              std::span<const float> isolated, const Threads& threads)
       : parent_(poles.tetrahedron.size()) {
     std::iota(parent_.begin(), parent_.end(), 0u);
     const std::size_t samples = poles.of_sample.size();
@@ -86,7 +77,7 @@ class Contraction {
       const auto offer = [&](PoleIndex p, PoleIndex q) {
         if (p == q || !is_node(p) || !is_node(q)) return;
         if (!(cosine_of_spheres(poles.sphere[p], poles.sphere[q]) < nearly_one)) return;
-        if (!is_pole_pair(poles, samples_of, p.value, q.value)) blocks[b].push_back({p.value, q.value});
+        blocks[b].push_back({p.value, q.value});
       };
       for (std::size_t s = first; s < last; ++s)
         for (const std::uint32_t n : neighbours[s]) {
@@ -241,16 +232,15 @@ void repel_supernodes(SignedGraph& graph) {
 }
 
 /// Gives the poles that are nodes (0 before) their numbers, by the first pole of each. \return how many nodes
-std::uint32_t number_nodes(const Poles& poles, const Lists& neighbours, const Lists& samples_of, bool contract,
-                           std::span<const float> isolated, const Threads& threads,
-                           std::vector<std::uint32_t>& node_of) {
+std::uint32_t number_nodes(const Poles& poles, const Lists& neighbours, bool contract, std::span<const float> isolated,
+                           const Threads& threads, std::vector<std::uint32_t>& node_of) {
   std::uint32_t nodes = 0;
   if (!contract) {
     for (std::uint32_t& node : node_of)
       if (node < inside_node) node = nodes++;
     return nodes;
   }
-  Contraction clusters(poles, neighbours, samples_of, node_of, isolated, threads);
+  Contraction clusters(poles, neighbours, node_of, isolated, threads);
   for (std::uint32_t p = 0; p < node_of.size(); ++p) {
     if (node_of[p] >= inside_node) continue;
     const std::uint32_t first = clusters.first_of(p);
@@ -292,7 +282,7 @@ PoleGraph pole_graph(const Tetrahedralization& t, const VertexStars& stars, cons
   const std::size_t supernodes = some_inside ? 2 : 1;
   const Lists neighbours = sample_neighbours(t, stars, threads);
   const Lists samples_of = samples_of_poles(poles);
-  const std::uint32_t nodes = number_nodes(poles, neighbours, samples_of, contract, isolated, threads, node_of);
+  const std::uint32_t nodes = number_nodes(poles, neighbours, contract, isolated, threads, node_of);
   const Lists members = members_of(node_of, nodes);
 
   PoleGraph result;

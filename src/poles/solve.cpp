@@ -29,8 +29,8 @@ PoleLabels label_poles(const Scene& scene, const Evidence& evidence, const PoleS
   const auto& [options, run, threads] = context;
   const auto& [t, rows, stars, measures, poles] = scene;
   PoleLabels result = run.stage("label_poles", [&] {
-    return label_poles(t, stars, poles, solved.graph, partition, solved.component, evidence.labels, measures.isolated(),
-                       options.global_sign, threads);
+    return label_poles(t, poles, solved.graph, partition, solved.component, evidence.labels, options.global_sign,
+                       threads);
   });
   run.product("poles", [&] { return snapshot_of_poles(t, poles, solved.graph, partition, result.labels); });
   if (options.questionable == Questionable::after) // §3.3

@@ -9,13 +9,6 @@
 
 namespace eigencrust {
 
-struct SpikeCounts {
-  std::uint64_t cut = 0;
-};
-/// Isolated samples, and small groups of samples far from all others, that only long triangles join to the surface:
-/// all tetrahedra around them that are inside, or all that are outside.
-SpikeCounts cut_spikes(Moves& moves);
-
 struct HandleCounts {
   std::uint64_t closed = 0;
 };

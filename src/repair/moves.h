@@ -50,9 +50,6 @@ class Moves {
   /// neither handles nor pieces.
   void turn(TetrahedronIndex i) { priced_.turn(i); }
 
-  /// That this sample is passed by costs nothing from now on.
-  void forgive(SampleIndex s) { priced_.forgive(s); }
-
   /// May this tetrahedron turn if nothing forces it?
   [[nodiscard]] bool is_open(TetrahedronIndex i) const {
     return scene.energy.known[i] == Label::unlabelled && !scene.t.touches_cube(i);
@@ -63,7 +60,6 @@ class Moves {
   void settle_values();
 
  private:
-  void swallow_specks(const std::vector<TetrahedronIndex>& turned);
   void relax(const std::vector<TetrahedronIndex>& turned);
   bool turn_back(TetrahedronIndex i);
   std::int64_t pieces_at(const std::vector<std::uint32_t>& samples);
@@ -72,7 +68,6 @@ class Moves {
   PricedLabels priced_;
   StarRepair repair_;
   LinkCheck link_;
-  std::vector<std::uint8_t> seen_;   ///< tetrahedra, while specks are looked for
   std::vector<std::uint32_t> owner_; ///< while pieces are counted: which front reached the sample
 };
 

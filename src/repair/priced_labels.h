@@ -30,7 +30,6 @@ class PricedLabels {
   /// Energy, prices of the samples and of long triangles, less those of the beginning.
   [[nodiscard]] double cost() const { return cost_; }
   [[nodiscard]] double price(SampleIndex s) const { return static_cast<double>(price_[s.value]); }
-  void forgive(SampleIndex s) { price_[s.value] = 0; }
   /// Has the sample tetrahedra of both sides around it?
   [[nodiscard]] bool on_surface(SampleIndex s) const { return inside_[s] > 0 && inside_[s] < star_size(s); }
 

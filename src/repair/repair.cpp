@@ -15,7 +15,6 @@ TetrahedronLabels repair(const Scene& scene, const Evidence& evidence, Settled s
   if (options.manifold && options.manifold_rule == ManifoldRule::cheapest) {
     Moves moves({t, stars, settled.energy, measures.model, threads}, labels);
     run.stage("manifold", [&] { return moves.make_manifold(run.checkpoint()); });
-    if (!measures.isolated().empty()) run.stage("spikes", [&] { return cut_spikes(moves); });
     run.stage("handles", [&] { return close_handles(moves, run.checkpoint()); });
     run.stage("recover", [&] { return recover_samples(moves); });
     moves.settle_values();

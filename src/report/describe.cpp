@@ -114,8 +114,6 @@ void describe(const HandleCounts& counts, Run& run) { run.count("closed", static
 
 void describe(const RecoveryCounts& counts, Run& run) { run.count("samples", static_cast<double>(counts.samples)); }
 
-void describe(const SpikeCounts& counts, Run& run) { run.count("cut", static_cast<double>(counts.cut)); }
-
 void describe(const Contradictions& contradictions, Run& run) {
   if (contradictions.all == 0) return;
   run.report().contradicting_rays = contradictions.lines;

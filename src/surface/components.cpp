@@ -17,18 +17,22 @@
 namespace eigencrust {
 namespace {
 
-// docs/decisions/0004: specks, pieces lost in the noise, pieces that the samples do not bear out, and clumps.
+// docs/decisions/0004: specks, pieces lost in the noise, pieces that the samples do not bear out, and those of
+// outliers.
 constexpr double speck_vertices = 20, speck_share = 5e-4;
 constexpr double extent_in_sigmas = 5;
 constexpr double least_support = 0.4;
+// Of its vertices: isolated samples are on no surface, and on the largest piece of scans full of outliers 0.01 at most.
+constexpr double most_isolated = 0.05;
 // Mean bend of a piece's edges, in radians (45°). Clumps have 48° to 65°, surfaces as noisy as the spacing 36° to 42°.
 constexpr double most_bent = std::numbers::pi / 4;
 
 struct Piece {
   std::vector<std::uint32_t> triangles;
   std::vector<std::uint32_t> vertices;
-  double support = 0; ///< mean over the area
-  double extent = 0;  ///< diagonal of its box in mean deviations of the noise; infinite where there is no noise
+  double support = 0;  ///< mean over the area
+  double isolated = 0; ///< share of the vertices
+  double extent = 0;   ///< diagonal of its box in mean deviations of the noise; infinite where there is no noise
   Vec3 centre;
 };
 
@@ -37,7 +41,7 @@ double area(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& v) {
 }
 
 /// \param met vertices that this function has met; marks those of the piece
-void measure(const Surface& surface, std::span<const float> noise, std::uint32_t number, Piece& piece,
+void measure(const Surface& surface, const SampleModel& model, std::uint32_t number, Piece& piece,
              std::vector<std::uint32_t>& met) {
   double supported = 0, whole = 0;
   for (const std::uint32_t i : piece.triangles) {
@@ -55,12 +59,14 @@ void measure(const Surface& surface, std::span<const float> noise, std::uint32_t
   for (const std::uint32_t v : piece.vertices) {
     box.add(surface.mesh.vertices[v]);
     piece.centre = piece.centre + (1 / count) * surface.mesh.vertices[v];
-    if (!noise.empty()) sigma += static_cast<double>(noise[surface.sample_of[v].value]) / count;
+    const std::uint32_t s = surface.sample_of[v].value;
+    if (!model.noise.empty()) sigma += static_cast<double>(model.noise[s]) / count;
+    if (!model.isolated.empty() && model.isolated[s] > 0) piece.isolated += 1 / count;
   }
   piece.extent = box.diagonal() / sigma; // no noise: infinite
 }
 
-std::vector<Piece> measure_pieces(const Surface& surface, std::span<const float> noise, const Threads& threads) {
+std::vector<Piece> measure_pieces(const Surface& surface, const SampleModel& model, const Threads& threads) {
   const std::vector<std::uint32_t> component = triangle_components(surface.mesh, threads.size());
   std::vector<Piece> pieces;
   for (std::uint32_t i = 0; i < component.size(); ++i) {
@@ -68,7 +74,7 @@ std::vector<Piece> measure_pieces(const Surface& surface, std::span<const float>
     pieces[component[i]].triangles.push_back(i);
   }
   std::vector<std::uint32_t> met(surface.mesh.vertices.size(), SampleIndex::none);
-  for (std::uint32_t c = 0; c < pieces.size(); ++c) measure(surface, noise, c, pieces[c], met);
+  for (std::uint32_t c = 0; c < pieces.size(); ++c) measure(surface, model, c, pieces[c], met);
   return pieces;
 }
 
@@ -104,7 +110,8 @@ std::vector<std::uint8_t> supported(const Surface& surface, const std::vector<Pi
     const Piece& piece = pieces[order[k]];
     const double least = speck_vertices + speck_share * static_cast<double>(pieces[order[0]].vertices.size());
     kept[order[k]] = static_cast<double>(piece.vertices.size()) >= least && piece.extent >= extent_in_sigmas &&
-                     piece.support >= least_support && !is_crumpled(surface, piece, number);
+                     piece.support >= least_support && piece.isolated <= most_isolated &&
+                     !is_crumpled(surface, piece, number);
   }
   return kept;
 }
@@ -148,9 +155,9 @@ void drop_triangles(std::span<const std::uint8_t> gone, Surface& surface) {
 }
 
 std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComponents& keep,
-                                                const Tetrahedralization& t, std::span<const float> noise,
+                                                const Tetrahedralization& t, const SampleModel& model,
                                                 const Threads& threads) {
-  const std::vector<Piece> pieces = measure_pieces(surface, noise, threads);
+  const std::vector<Piece> pieces = measure_pieces(surface, model, threads);
   const std::vector<std::uint8_t> kept = choose(surface, pieces, keep);
   std::vector<DroppedComponent> dropped;
   std::vector<std::uint8_t> gone(surface.mesh.triangles.size(), 0);

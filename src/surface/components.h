@@ -5,12 +5,14 @@
 
 #include <eigencrust/stages.h>
 
+#include "samples/sample_model.h"
+
 namespace eigencrust {
 
 /// Removes pieces of the surface by `keep`; see docs/parameters.md for `supported`. Expects surface.support.
-/// \param noise standard deviation at each sample; may be empty
+/// \param model its noise and isolated samples count; both may be empty
 std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComponents& keep,
-                                                const Tetrahedralization& tetrahedralization,
-                                                std::span<const float> noise, const Threads& threads);
+                                                const Tetrahedralization& tetrahedralization, const SampleModel& model,
+                                                const Threads& threads);
 
 } // namespace eigencrust

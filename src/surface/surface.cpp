@@ -98,7 +98,7 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels(), threads); });
   run.product("surface", [&] { return snapshot_of_surface(t, surface); });
   run.stage("support", [&] { measure_support(t, labels, model, grid, surface, threads); });
-  run.stage("components", [&] { return filter_components(surface, options.components, t, model.noise, threads); });
+  run.stage("components", [&] { return filter_components(surface, options.components, t, model, threads); });
   require_surface(surface);
   if (options.components.kind == KeepComponents::Kind::supported) require_samples_near(surface, scene, threads);
   describe(samples_apart(surface, scene, threads), run);
@@ -110,7 +110,7 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   });
   if (options.trim) {
     trim(std::move(unsupported.marked), surface);
-    describe(filter_components(surface, options.components, t, model.noise, threads), run);
+    describe(filter_components(surface, options.components, t, model, threads), run);
     require_trimmed(surface);
   }
   return surface;

@@ -54,8 +54,6 @@ TetrahedronLabels after_all_moves(const Prepared& p, const TetrahedronLabels& be
   Moves moves = stage.moves();
   moves.make_manifold();
   expect_manifold(p, stage.labels);
-  cut_spikes(moves);
-  expect_manifold(p, stage.labels);
   const MeshSummary whole = stage.summary();
   close_handles(moves);
   expect_manifold(p, stage.labels);

@@ -212,7 +212,6 @@ TEST(Moves, WhatIsKnownGivesWayLast) {
   EXPECT_EQ(counts.overruled, 0u); // one in forty: there is always another way
   close_handles(moves);
   recover_samples(moves);
-  cut_spikes(moves);
   for (TetrahedronIndex i{0}; i.value < known.size(); ++i.value)
     if (known[i] != Label::unlabelled) {
       ASSERT_EQ(stage.labels[i], known[i]);

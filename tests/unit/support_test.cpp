@@ -122,8 +122,8 @@ struct TwoPieces {
     for (std::size_t i = 0; i < surface.support.size(); ++i)
       if (is_small(i)) surface.support[i] = support;
   }
-  std::vector<DroppedComponent> filter(std::span<const float> noise = {}) {
-    return filter_components(surface, {Kind::supported, 1}, p.t, noise, Threads(2));
+  std::vector<DroppedComponent> filter(const SampleModel& model = {}) {
+    return filter_components(surface, {Kind::supported, 1}, p.t, model, Threads(2));
   }
 };
 
@@ -177,12 +177,25 @@ TEST(SupportedComponents, SupportIsTheMeanOverTheArea) {
   EXPECT_NEAR(dropped[0].support, supported / whole, 1e-9);
 }
 
+TEST(SupportedComponents, PiecesOfIsolatedSamplesAreDropped) {
+  for (const auto& [isolated, count] : {std::pair(3u, 0u), std::pair(6u, 1u)}) { // of 80
+    TwoPieces pieces;
+    SampleModel model;
+    model.isolated.assign(pieces.p.t.sample_count, 0.0f);
+    unsigned left = isolated;
+    for (std::uint32_t s = 0; s < pieces.p.t.sample_count && left > 0; ++s)
+      if (pieces.p.t.positions.raw()[s].x + pieces.p.t.origin.x < 50) model.isolated[s] = 1, --left;
+    EXPECT_EQ(pieces.filter(model).size(), count) << isolated;
+  }
+}
+
 TEST(SupportedComponents, PiecesWithinTheNoiseAreDropped) {
   // The box of the small sphere has a diagonal of about 2 √3 = 3.46; fewer than five deviations are noise.
   for (const auto& [sigma, count] : {std::pair(0.67f, 0u), std::pair(0.72f, 1u)}) {
     TwoPieces pieces;
-    const std::vector<float> everywhere(pieces.p.t.sample_count, sigma);
-    EXPECT_EQ(pieces.filter(everywhere).size(), count) << sigma;
+    SampleModel model;
+    model.noise.assign(pieces.p.t.sample_count, sigma);
+    EXPECT_EQ(pieces.filter(model).size(), count) << sigma;
   }
 }
 
