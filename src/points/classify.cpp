@@ -125,7 +125,8 @@ class Vertices {
     for (std::uint32_t v = 0; v < edge_.size(); ++v)
       if (edge_[v] > limit) isolated.push_back(v);
     for_each_index(
-        threads_, isolated.size(), [&](std::size_t i) { fine[isolated[i]] &= !is_scattered(isolated[i]); }, 256);
+        threads_, isolated.size(), [&](std::size_t i) { fine[isolated[i]] &= !is_scattered(isolated[i]); },
+        costly_block);
   }
 
   /// Do the vertices around it fill space, or does it stand off the plane that they make?
@@ -244,7 +245,7 @@ Classification classify_samples(const Tetrahedralization& t, const Surface& surf
         result.confidence[s] = static_cast<float>(1 / (1 + ratio * ratio));
         result.inlier[s] = result.confidence[s] >= 0.5f;
       },
-      2048);
+      costly_block);
   return result;
 }
 

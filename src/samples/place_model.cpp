@@ -14,8 +14,9 @@ namespace {
 
 // Neighbourhoods grow threefold in number, about 1.7-fold in radius on a surface; from the fourth on they are told
 // from a third, a ninth ... of the samples.
-constexpr std::array<std::size_t, 3> sizes{10, 30, 90};
-constexpr std::size_t growth = 3, most_coarser = 4;
+constexpr std::size_t narrowest = 10, growth = 3;
+constexpr std::array<std::size_t, 3> sizes{narrowest, narrowest* growth, narrowest* growth* growth};
+constexpr std::size_t most_coarser = 4;
 // Neighbourhoods that are not flat must fit so many times into the cloud: a larger one is as thick as the object.
 constexpr std::size_t least_neighbourhoods = 20;
 

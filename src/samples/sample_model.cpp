@@ -50,7 +50,7 @@ std::vector<float> spacings(const PointTree& tree, std::span<const Vec3> positio
         const std::size_t found = tree.nearest(positions[i], index.size(), index.data(), square.data());
         result[i] = static_cast<float>(spacing_at(std::sqrt(square[found - 1]), found - 1));
       },
-      2048);
+      costly_block);
   return result;
 }
 
@@ -73,7 +73,7 @@ Places measure_places(const PlaceModels& models, std::span<const Vec3> positions
         places.spacing[p] = spacing[middle];
         places.model[p] = models.at(places.at[p]);
       },
-      32);
+      costly_block);
   return places;
 }
 
@@ -101,7 +101,7 @@ std::vector<float> over_flat_places(const Places& places, std::size_t wanted, co
         for (std::size_t k = 0; k < found; ++k) values.push_back(value(number[index[k]]));
         result[p] = quantile(values, share);
       },
-      256);
+      costly_block);
   return result;
 }
 
@@ -132,7 +132,7 @@ void measure_planes(const PlaceModels& models, std::span<const Vec3> positions, 
           place = place + (1.0 / static_cast<double>(end - begin)) * positions[i];
         planes[r] = models.mean_plane(place, static_cast<double>(model.noise[begin]));
       },
-      64);
+      costly_block);
   if (std::find(noisy.begin(), noisy.end(), 1) != noisy.end()) model.plane = std::move(planes);
 }
 
@@ -166,7 +166,7 @@ SampleModel sample_model(std::span<const Vec3> positions, std::optional<double> 
         model.isolated[i] = lonely_radius(tree, positions, positions[i]);
         if (model.isolated[i] > 0) model.spacing[i] = level[place];
       },
-      512);
+      costly_block);
   measure_planes(models, positions, model, threads);
   return model;
 }

@@ -8,6 +8,7 @@
 #include <eigencrust/stages.h>
 #include <eigencrust/validate.h>
 
+#include "geometry/mesh_topology.h"
 #include "parallel/threads.h"
 #include "surface/components.h"
 #include "surface/drop_triangles.h"
@@ -28,20 +29,15 @@ struct Piece {
   Vec3 centre;
 };
 
-double area(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& v) {
-  return norm(cross(mesh.vertices[v[1]] - mesh.vertices[v[0]], mesh.vertices[v[2]] - mesh.vertices[v[0]])) / 2;
-}
-
 /// \param met vertices that this function has met; marks those of the piece
 void measure(const Surface& surface, std::span<const float> grid_spacing, std::uint32_t number, Piece& piece,
              std::vector<std::uint32_t>& met) {
   std::vector<std::uint32_t> vertices;
   double supported = 0, whole = 0;
   for (const std::uint32_t i : piece.triangles) {
-    const auto& v = surface.mesh.triangles[i];
-    for (const std::uint32_t corner : v)
+    for (const std::uint32_t corner : surface.mesh.triangles[i])
       if (std::exchange(met[corner], number) != number) vertices.push_back(corner);
-    const double a = area(surface.mesh, v);
+    const double a = norm(area_vector(surface.mesh, i)) / 2;
     supported += a * static_cast<double>(surface.support[i]);
     whole += a;
   }

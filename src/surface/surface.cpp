@@ -38,7 +38,7 @@ void require_samples_near(const Surface& surface, const Scene& scene, const Thre
                        near_in_spacings * static_cast<double>(model.spacing[s]);
         return count;
       },
-      1024);
+      costly_block);
   if (near < needed)
     throw Error(ErrorKind::no_surface, "surface",
                 "only " + std::to_string(near) + " of " + std::to_string(t.sample_count) +

@@ -24,7 +24,7 @@ Vec3 circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   // Negated, so that underflow and NaN also take the exact way.
   if (!(std::fabs(volume) > 1e-10 * norm(u) * norm(v) * norm(w))) return exact_circumcentre(a, b, c, d);
   const Vec3 numerator = squared_norm(u) * vw + (squared_norm(v) * wu + squared_norm(w) * uv);
-  return a + (0.5 / volume) * numerator;
+  return a + (1 / (2 * volume)) * numerator;
 }
 
 } // namespace eigencrust
