@@ -30,7 +30,8 @@ using Delaunay = CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data
 // "Much wider than the cloud" (§3): no sample may lie near a side.
 constexpr double cube_half_side_in_diagonals = 10;
 
-/// In random rounds, each twice as large as the one before and along the Hilbert curve (BRIO; Amenta, Choi, Rote 2003).
+/// In random rounds, each four times as large as the one before and along the Hilbert curve (BRIO; Amenta, Choi, Rote
+/// 2003).
 void insert_all(Delaunay& delaunay, const IndexedArray<SampleIndex, Vec3>& positions, std::uint32_t samples) {
   Delaunay::Cell_handle hint;
   const auto insert = [&](std::uint32_t i) {
@@ -42,7 +43,8 @@ void insert_all(Delaunay& delaunay, const IndexedArray<SampleIndex, Vec3>& posit
   for (std::uint32_t i = samples; i < positions.size(); ++i) insert(i);
   std::mt19937_64 random;
   std::vector<std::vector<std::uint32_t>> rounds(1 + std::numeric_limits<std::uint64_t>::digits);
-  for (std::uint32_t i = 0; i < samples; ++i) rounds[static_cast<std::size_t>(std::countr_zero(random()))].push_back(i);
+  for (std::uint32_t i = 0; i < samples; ++i)
+    rounds[static_cast<std::size_t>(std::countr_zero(random())) / 2].push_back(i);
   for (std::size_t r = rounds.size(); r-- > 0;)
     for (const std::uint32_t i : rounds[r]) insert(i);
 }
