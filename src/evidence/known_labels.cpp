@@ -12,9 +12,6 @@
 namespace eigencrust {
 namespace {
 
-// How far within a pole's ball, in radii, a named point speaks for the pole.
-constexpr double deep = 0.5;
-
 std::string show(const Vec3& p) {
   return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + ")";
 }
@@ -99,7 +96,7 @@ void name_poles(const Tetrahedralization& t, const Poles& poles, std::span<const
   if (outside_points.empty() && inside_points.empty()) return;
   const auto holds = [&](const Sphere& ball, std::span<const Vec3> points) {
     return std::any_of(points.begin(), points.end(), [&](const Vec3& p) {
-      return squared_norm(p - t.origin - ball.centre) < deep * deep * ball.radius * ball.radius;
+      return distance(p - t.origin, ball.centre) < ball.radius / 2; // deep within
     });
   };
   for_each_index(threads, poles.tetrahedron.size(), [&](std::size_t i) {

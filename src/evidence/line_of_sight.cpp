@@ -59,9 +59,9 @@ class Ray {
 /// What holds the places half a depth and one depth behind the sample, seen from the scanner.
 void count_behind(const Tetrahedralization& t, const VertexStars& stars, const SightLine& line, Tally& behind) {
   const double depth = static_cast<double>(line.depth);
-  SegmentWalk walk(t, stars, line.sample, Ray(t, line).at(-depth));
-  while (walk.next()) {
-    for (const double place : {0.5 * depth, 0.999 * depth}) // the walk ends at one
+  SegmentWalk walk(t, stars, line.sample, Ray(t, line).at(-2 * depth)); // farther than needed: it ends before its end
+  while (walk.next() && walk.depth() <= depth) {
+    for (const double place : {depth / 2, depth})
       if (walk.depth() <= place && place < walk.exit_depth()) behind.add(walk.tetrahedron());
   }
 }
@@ -86,7 +86,7 @@ Vec3 target_of(const Sensor& sensor, const Vec3& origin, const Box3& box, const 
 Box3 wide_box(const Tetrahedralization& t) {
   Box3 box;
   for (std::uint32_t i = 0; i < t.sample_count; ++i) box.add(t.positions.raw()[i]);
-  const double margin = box.diagonal() / 100;
+  const double margin = box.diagonal();
   box.min = box.min - Vec3{margin, margin, margin};
   box.max = box.max + Vec3{margin, margin, margin};
   return box;

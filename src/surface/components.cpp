@@ -16,22 +16,19 @@
 namespace eigencrust {
 namespace {
 
-// docs/decisions/0004: specks, pieces lost in the noise, and pieces that the samples do not bear out.
+// docs/decisions/0004: specks, and pieces that the samples do not bear out.
 constexpr double speck_vertices = 20, speck_share = 5e-4;
-constexpr double extent_in_grid_spacings = 4;
 constexpr double least_support = 0.4;
 
 struct Piece {
   std::vector<std::uint32_t> triangles;
   std::uint32_t vertices = 0;
   double support = 0; ///< mean over the area
-  double extent = 0;  ///< diagonal of its box in mean grid spacings; infinite where there is no noise
   Vec3 centre;
 };
 
 /// \param met vertices that this function has met; marks those of the piece
-void measure(const Surface& surface, std::span<const float> grid_spacing, std::uint32_t number, Piece& piece,
-             std::vector<std::uint32_t>& met) {
+void measure(const Surface& surface, std::uint32_t number, Piece& piece, std::vector<std::uint32_t>& met) {
   std::vector<std::uint32_t> vertices;
   double supported = 0, whole = 0;
   for (const std::uint32_t i : piece.triangles) {
@@ -43,17 +40,11 @@ void measure(const Surface& surface, std::span<const float> grid_spacing, std::u
   }
   piece.support = whole > 0 ? supported / whole : 0;
   piece.vertices = static_cast<std::uint32_t>(vertices.size());
-  Box3 box;
-  double noise = 0;
-  for (const std::uint32_t v : vertices) {
-    box.add(surface.mesh.vertices[v]);
+  for (const std::uint32_t v : vertices)
     piece.centre = piece.centre + (1.0 / piece.vertices) * surface.mesh.vertices[v];
-    if (!grid_spacing.empty()) noise += static_cast<double>(grid_spacing[surface.sample_of[v].value]) / piece.vertices;
-  }
-  piece.extent = box.diagonal() / noise; // no noise: infinite
 }
 
-std::vector<Piece> measure_pieces(const Surface& surface, std::span<const float> grid_spacing, const Threads& threads) {
+std::vector<Piece> measure_pieces(const Surface& surface, const Threads& threads) {
   const std::vector<std::uint32_t> component = triangle_components(surface.mesh, threads.size());
   std::vector<Piece> pieces;
   for (std::uint32_t i = 0; i < component.size(); ++i) {
@@ -61,7 +52,7 @@ std::vector<Piece> measure_pieces(const Surface& surface, std::span<const float>
     pieces[component[i]].triangles.push_back(i);
   }
   std::vector<std::uint32_t> met(surface.mesh.vertices.size(), SampleIndex::none);
-  for (std::uint32_t c = 0; c < pieces.size(); ++c) measure(surface, grid_spacing, c, pieces[c], met);
+  for (std::uint32_t c = 0; c < pieces.size(); ++c) measure(surface, c, pieces[c], met);
   return pieces;
 }
 
@@ -84,8 +75,7 @@ std::vector<std::uint8_t> choose(const std::vector<Piece>& pieces, const KeepCom
       // The largest piece always stays: a cloud of ten points still has a surface.
       for (std::size_t i = 1; i < order.size(); ++i) {
         const Piece& piece = pieces[order[i]];
-        if (piece.vertices < speck_vertices + speck_share * pieces[order[0]].vertices ||
-            piece.extent < extent_in_grid_spacings || piece.support < least_support)
+        if (piece.vertices < speck_vertices + speck_share * pieces[order[0]].vertices || piece.support < least_support)
           kept[order[i]] = 0;
       }
       break;
@@ -118,9 +108,8 @@ void drop_triangles(std::span<const std::uint8_t> gone, Surface& surface) {
 }
 
 std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComponents& keep,
-                                                const Tetrahedralization& t, std::span<const float> grid_spacing,
-                                                const Threads& threads) {
-  const std::vector<Piece> pieces = measure_pieces(surface, grid_spacing, threads);
+                                                const Tetrahedralization& t, const Threads& threads) {
+  const std::vector<Piece> pieces = measure_pieces(surface, threads);
   const std::vector<std::uint8_t> kept = choose(pieces, keep);
   std::vector<DroppedComponent> dropped;
   std::vector<std::uint8_t> gone(surface.mesh.triangles.size(), 0);

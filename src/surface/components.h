@@ -8,9 +8,7 @@
 namespace eigencrust {
 
 /// Removes pieces of the surface by `keep`; see docs/parameters.md for `supported`. Expects surface.support.
-/// \param grid_spacing ℓ of each sample; may be empty
 std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComponents& keep,
-                                                const Tetrahedralization& tetrahedralization,
-                                                std::span<const float> grid_spacing, const Threads& threads);
+                                                const Tetrahedralization& tetrahedralization, const Threads& threads);
 
 } // namespace eigencrust

@@ -22,7 +22,7 @@ void require_surface(const Surface& surface) {
 
 /// A scrap is no success: of so many samples some must lie on the surface, or as near as noise and spacing explain.
 void require_samples_near(const Surface& surface, const Scene& scene, const Threads& threads) {
-  constexpr double least_share = 0.05, near_in_sigmas = 3, near_in_spacings = 1;
+  constexpr double least_share = 0.05;
   const Tetrahedralization& t = scene.tetrahedralization;
   const auto needed = static_cast<std::uint64_t>(std::ceil(least_share * t.sample_count));
   if (surface.sample_of.size() >= needed) return;
@@ -34,8 +34,7 @@ void require_samples_near(const Surface& surface, const Scene& scene, const Thre
         std::uint64_t count = 0;
         for (std::size_t s = begin; s < end; ++s)
           count += tree.nearest(t.positions.raw()[s]).distance <=
-                   near_in_sigmas * static_cast<double>(model.noise[s]) +
-                       near_in_spacings * static_cast<double>(model.spacing[s]);
+                   model.tolerance(SampleIndex{static_cast<std::uint32_t>(s)});
         return count;
       },
       costly_block);
@@ -70,7 +69,7 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels(), threads); });
   run.product("surface", [&] { return snapshot_of_surface(t, surface); });
   run.stage("support", [&] { measure_support(t, labels, model, grid, surface, threads); });
-  run.stage("components", [&] { return filter_components(surface, options.components, t, grid, threads); });
+  run.stage("components", [&] { return filter_components(surface, options.components, t, threads); });
   require_surface(surface);
   if (options.components.kind == KeepComponents::Kind::supported) require_samples_near(surface, scene, threads);
   const bool one_sided = options.facade.has_value() || evidence.one_sided.has_value();
@@ -81,7 +80,7 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   });
   if (options.trim) {
     trim(std::move(unsupported.marked), surface);
-    describe(filter_components(surface, options.components, t, grid, threads), run);
+    describe(filter_components(surface, options.components, t, threads), run);
     require_trimmed(surface);
   }
   return surface;

@@ -122,9 +122,7 @@ struct TwoPieces {
     for (std::size_t i = 0; i < surface.support.size(); ++i)
       if (is_small(i)) surface.support[i] = support;
   }
-  std::vector<DroppedComponent> filter(std::span<const float> grid_spacing = {}) {
-    return filter_components(surface, {Kind::supported, 1}, p.t, grid_spacing, Threads(2));
-  }
+  std::vector<DroppedComponent> filter() { return filter_components(surface, {Kind::supported, 1}, p.t, Threads(2)); }
 };
 
 TEST(SupportedComponents, LowSupportIsDroppedAndListed) {
@@ -175,15 +173,6 @@ TEST(SupportedComponents, SupportIsTheMeanOverTheArea) {
   const std::vector<DroppedComponent> dropped = pieces.filter();
   ASSERT_EQ(dropped.size(), 1u);
   EXPECT_NEAR(dropped[0].support, supported / whole, 1e-9);
-}
-
-TEST(SupportedComponents, PiecesWithinTheNoiseAreDropped) {
-  // The box of the small sphere has a diagonal of about 2 √3 = 3.46; fewer than four grid spacings are noise.
-  for (const auto& [grid_spacing, count] : {std::pair(0.8f, 0u), std::pair(0.9f, 1u)}) {
-    TwoPieces pieces;
-    const std::vector<float> everywhere(pieces.p.t.sample_count, grid_spacing);
-    EXPECT_EQ(pieces.filter(everywhere).size(), count) << grid_spacing;
-  }
 }
 
 } // namespace
