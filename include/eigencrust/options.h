@@ -61,6 +61,9 @@ struct LengthChoice {
   };
   Kind kind = Kind::automatic;
   double value = 0;
+
+  /// The length given; none: it is automatic.
+  [[nodiscard]] std::optional<double> given(double diagonal) const;
 };
 
 /// Which pieces of the surface are kept.

@@ -26,7 +26,7 @@ struct Samples {
   std::uint64_t duplicates = 0, nonfinite = 0;
   Box3 bounds; ///< input coordinates
 };
-/// \throws Error{input} for fewer than 5 distinct finite points or more than 2^32 - 16
+/// \throws Error{input} for fewer than 5 distinct finite points or more than 2^32 - 9
 Samples prepare_samples(std::span<const Vec3> points, const Threads& threads);
 
 /// Median distance of a sample to its nearest sample; 0 with fewer than two.

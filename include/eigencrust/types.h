@@ -51,10 +51,13 @@ struct Box3 {
   [[nodiscard]] double diagonal() const { return empty() ? 0.0 : distance(min, max); }
 };
 
+/// No number: of a sample, a place, a sensor.
+inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
+
 /// A 32-bit index that only fits the thing it counts: a tetrahedron cannot be taken for a sample.
 template <class Tag>
 struct Index {
-  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t none = no_index;
   std::uint32_t value = none;
 
   [[nodiscard]] constexpr bool valid() const { return value != none; }
@@ -147,7 +150,7 @@ struct Sensor {
 /// Invariants: every attribute has points.size() rows; scan_index is empty or has points.size() entries;
 /// so has sensor_of, and each entry is below sensors.size() or no_sensor; places are finite.
 struct PointCloud {
-  static constexpr std::uint32_t no_sensor = 0xffffffff;
+  static constexpr std::uint32_t no_sensor = no_index;
 
   std::vector<Vec3> points; ///< n rows in input order; may hold NaN, infinities and duplicates
   std::vector<Attribute> attributes;

@@ -20,10 +20,9 @@ std::vector<float> crossing_depths(const SampleModel& model, const Options& opti
   if (options.crossing_depth)
     return std::vector<float>(model.spacing.size(), static_cast<float>(*options.crossing_depth));
   // Nearer than that the line runs within what the sample itself is uncertain by.
-  constexpr float depth_in_spacings = 0.5f, depth_in_sigmas = 3;
   std::vector<float> depth(model.spacing.size());
   for (std::size_t i = 0; i < depth.size(); ++i)
-    depth[i] = std::max(depth_in_spacings * model.spacing[i], depth_in_sigmas * model.noise[i]);
+    depth[i] = std::max(model.spacing[i] / 2, noise_bound * model.noise[i]);
   return depth;
 }
 

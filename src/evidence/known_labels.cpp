@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // §3.1: what is known before anything is computed.
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include <eigencrust/error.h>
@@ -14,9 +15,6 @@
 
 namespace eigencrust {
 namespace {
-
-// How far within a pole's ball, in radii, a named point speaks for the pole.
-constexpr double deep = 0.5;
 
 std::string show(const Vec3& p) {
   return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + ")";
@@ -83,7 +81,7 @@ class NamedPoints {
   [[nodiscard]] bool is_deep_in(const Sphere& ball) const {
     std::uint32_t index = 0;
     double square = 0;
-    return tree_->nearest(ball.centre, 1, &index, &square) > 0 && square < deep * deep * ball.radius * ball.radius;
+    return tree_->nearest(ball.centre, 1, &index, &square) > 0 && 2 * std::sqrt(square) < ball.radius;
   }
 
  private:

@@ -15,7 +15,6 @@
 namespace eigencrust {
 namespace {
 
-constexpr std::size_t lines_per_block = 512;
 // A single sample in front of a tetrahedron may be an outlier.
 constexpr std::uint32_t least_doubt = 2;
 // The lines of a façade's cameras and of one range image are within 60° of their mean, those of scans from around
@@ -45,7 +44,7 @@ class Ray {
   /// Is the middle of the way through the tetrahedron away from its vertices? Lines at a grazing angle dip into what
   /// other scans put a little higher; there they are close to samples.
   [[nodiscard]] bool is_clear(const SegmentWalk& walk) const {
-    const Vec3 middle = at(0.5 * (walk.depth() + walk.exit_depth()));
+    const Vec3 middle = at((walk.depth() + walk.exit_depth()) / 2);
     for (const SampleIndex s : t_.tetrahedra[walk.tetrahedron()])
       if (squared_norm(t_.positions[s] - middle) <= depth_ * depth_) return false;
     return true;
@@ -60,9 +59,9 @@ class Ray {
 /// What holds the places half a depth and one depth behind the sample, seen from the scanner.
 void count_behind(const Tetrahedralization& t, const VertexStars& stars, const SightLine& line, Tally& behind) {
   const double depth = static_cast<double>(line.depth);
-  SegmentWalk walk(t, stars, line.sample, Ray(t, line).at(-depth));
-  while (walk.next()) {
-    for (const double place : {0.5 * depth, 0.999 * depth}) // the walk ends at one
+  SegmentWalk walk(t, stars, line.sample, Ray(t, line).at(-2 * depth)); // farther than needed: it ends before its end
+  while (walk.next() && walk.depth() <= depth) {
+    for (const double place : {depth / 2, depth})
       if (walk.depth() <= place && place < walk.exit_depth()) behind.add(walk.tetrahedron());
   }
 }
@@ -87,7 +86,7 @@ Vec3 target_of(const Sensor& sensor, const Vec3& origin, const Box3& box, const 
 Box3 wide_box(const Tetrahedralization& t) {
   Box3 box;
   for (std::uint32_t i = 0; i < t.sample_count; ++i) box.add(t.positions.raw()[i]);
-  const double margin = box.diagonal() / 100;
+  const double margin = box.diagonal();
   box.min = box.min - Vec3{margin, margin, margin};
   box.max = box.max + Vec3{margin, margin, margin};
   return box;
@@ -134,7 +133,7 @@ std::optional<OneSided> one_sided_scan(const Tetrahedralization& t, std::span<co
 
 SightCrossings sight_crossings(const Tetrahedralization& t, const VertexStars& stars, std::span<const SightLine> lines,
                                Weights weights, const Labels& known, const Threads& threads) {
-  auto rows = build_rows<TetrahedronIndex>(threads, lines.size(), lines_per_block, [&] {
+  auto rows = build_rows<TetrahedronIndex>(threads, lines.size(), costly_block, [&] {
     return [&](std::size_t i, std::vector<TetrahedronIndex>& crossed) {
       SegmentWalk walk(t, stars, lines[i].sample, lines[i].target);
       const Ray ray(t, lines[i]);
@@ -153,7 +152,7 @@ SightLabels line_of_sight(const Tetrahedralization& t, const VertexStars& stars,
   Tally behind(t.tetrahedra.size()), crossed(t.tetrahedra.size()), believed(t.tetrahedra.size());
   if (rule.weights == Weights::evidence)
     for_each_index(
-        threads, lines.size(), [&](std::size_t i) { count_behind(t, stars, lines[i], behind); }, lines_per_block);
+        threads, lines.size(), [&](std::size_t i) { count_behind(t, stars, lines[i], behind); }, costly_block);
   for_each_index(threads, crossings.tetrahedra.size(), [&](std::size_t i) { crossed.add(crossings.tetrahedra[i]); });
   const auto is_believed = [&](std::size_t line) {
     return std::none_of(crossings[line].begin(), crossings[line].end(),
@@ -172,12 +171,13 @@ SightLabels line_of_sight(const Tetrahedralization& t, const VertexStars& stars,
         }
         return disbelieved;
       },
-      lines_per_block);
+      costly_block);
+  constexpr std::uint32_t most = std::numeric_limits<std::uint8_t>::max();
   result.front = result.behind = IndexedArray<TetrahedronIndex, std::uint8_t>(known.size());
   for_each_index(threads, known.size(), [&](std::size_t i) {
     const TetrahedronIndex at{static_cast<std::uint32_t>(i)};
-    result.front[at] = static_cast<std::uint8_t>(std::min(255u, believed[at]));
-    result.behind[at] = static_cast<std::uint8_t>(std::min(255u, behind[at]));
+    result.front[at] = static_cast<std::uint8_t>(std::min(most, believed[at]));
+    result.behind[at] = static_cast<std::uint8_t>(std::min(most, behind[at]));
   });
   result.labels = known;
   const std::uint32_t least_lines = rule.weights == Weights::paper ? 2 : 1; // "more than once"
@@ -211,7 +211,7 @@ std::uint64_t contradicting_lines(const SightCrossings& crossings, const Labels&
                                        [&](TetrahedronIndex at) { return labels[at] == Label::inside; });
         return contradicting;
       },
-      lines_per_block);
+      costly_block);
 }
 
 } // namespace eigencrust

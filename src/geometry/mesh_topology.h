@@ -69,6 +69,26 @@ void for_each_edge(std::span<const Side> sides, Visit&& visit) {
   }
 }
 
+/// visit(triangle, vertex, corner) for each corner in order; corners are numbered as sides are.
+template <class Visit>
+void for_each_corner(std::span<const Triangle> triangles, Visit&& visit) {
+  std::uint32_t corner = 0;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    for (const std::uint32_t v : triangles[t]) visit(t, v, corner++);
+}
+
+/// Joins the corners of two triangles at both ends of their edge.
+inline void join_fans(DisjointSets& fans, const Side& a, const Side& b) {
+  fans.unite(a.corner_at_low(), b.corner_at_low());
+  fans.unite(a.corner_at_high(), b.corner_at_high());
+}
+
+/// Twice its area, along its normal.
+inline Vec3 area_vector(const TriangleMesh& mesh, std::size_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
+}
+
 /// For each vertex the first one with equal coordinates (itself when there is none before it). NaN
 /// equals nothing; -0 equals 0.
 std::vector<std::uint32_t> first_equal_vertex(std::span<const Vec3> vertices);

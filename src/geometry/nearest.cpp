@@ -109,7 +109,7 @@ std::vector<double> nearest_other(std::span<const Vec3> points, const Threads& t
         tree.nearest(points[i], 2, index.data(), square.data());
         result[i] = std::sqrt(square[1]);
       },
-      2048);
+      costly_block);
   return result;
 }
 

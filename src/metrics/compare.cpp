@@ -6,17 +6,15 @@
 #include <eigencrust/metrics.h>
 #include <eigencrust/validate.h>
 
+#include "geometry/mesh_topology.h"
 #include "parallel/threads.h"
 
 namespace eigencrust {
 namespace {
 
-constexpr std::size_t queries_per_block = 1024;
-
 /// Unit normal of a triangle; zero where it has none.
 Vec3 unit_normal(const TriangleMesh& mesh, std::uint32_t triangle) {
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  const Vec3 n = cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
+  const Vec3 n = area_vector(mesh, triangle);
   const double length = norm(n);
   return length > 0 ? (1 / length) * n : Vec3{};
 }
@@ -47,7 +45,7 @@ std::vector<double> one_way(const TriangleMesh& from, const TriangleMesh& to, co
     }
     return sum;
   };
-  normals = normals + sum_blocks<NormalSums>(threads, points.size(), part, queries_per_block);
+  normals = normals + sum_blocks<NormalSums>(threads, points.size(), part, costly_block);
   return distances;
 }
 

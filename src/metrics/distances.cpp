@@ -13,8 +13,6 @@
 namespace eigencrust {
 namespace {
 
-constexpr std::size_t queries_per_block = 1024;
-
 /// Value at q of sorted values, linear between neighbours.
 double quantile(const std::vector<double>& sorted, double q) {
   const double place = q * static_cast<double>(sorted.size() - 1);
@@ -47,7 +45,7 @@ std::vector<double> distances_to_surface(std::span<const Vec3> points, const Tri
   std::vector<double> result(points.size());
   for_each_index(
       Threads(threads), points.size(), [&](std::size_t i) { result[i] = tree.nearest(points[i]).distance; },
-      queries_per_block);
+      costly_block);
   return result;
 }
 
@@ -69,7 +67,7 @@ std::vector<double> distances_to_points(std::span<const Vec3> points, std::span<
     tree.nearest(points[i], 1, &nearest, &squared);
     result[i] = std::sqrt(squared);
   };
-  for_each_index(Threads(threads), points.size(), query, queries_per_block);
+  for_each_index(Threads(threads), points.size(), query, costly_block);
   return result;
 }
 

@@ -23,8 +23,7 @@ std::vector<Vec3> sample_surface(const TriangleMesh& mesh, std::size_t count, st
   std::vector<double> area_up_to(mesh.triangles.size());
   double total = 0;
   for (std::size_t t = 0; t < area_up_to.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    total += norm(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]));
+    total += norm(area_vector(mesh, t));
     area_up_to[t] = total;
   }
   if (!(total > 0) || !std::isfinite(total))

@@ -12,8 +12,6 @@
 namespace eigencrust {
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
 /// Triangles with vertices of equal coordinates made one, in two views: all of them, and without those
 /// that have two equal corners. The latter have no sides to join anything by: topology goes without.
 struct MergedTriangles {
@@ -50,11 +48,6 @@ struct Connectivity {
   DisjointSets sheets;     ///< of triangle sides 2t (front) and 2t+1 (back): joined = not orientable
   std::vector<Side> cut;   ///< sides of edges that do not have exactly two triangles
 };
-
-void join_fans(DisjointSets& fans, const Side& a, const Side& b) {
-  fans.unite(a.corner_at_low(), b.corner_at_low());
-  fans.unite(a.corner_at_high(), b.corner_at_high());
-}
 
 void join_sheets(DisjointSets& sheets, const Side& a, const Side& b) {
   const std::uint32_t flip = a.forward == b.forward ? 1 : 0;
@@ -108,17 +101,17 @@ std::pair<std::vector<std::uint32_t>, std::uint32_t> number_components(DisjointS
 void tally_vertices(std::span<const Triangle> triangles, std::size_t vertices, Connectivity& c,
                     std::span<const std::uint32_t> component, std::vector<Tally>& tallies, MeshSummary& summary) {
   std::vector<std::uint32_t> fans_at(vertices, 0);
-  for (std::uint32_t corner = 0; corner < 3 * triangles.size(); ++corner) {
-    if (c.fans.find(corner) != corner) continue;
-    ++fans_at[triangles[corner / 3][corner % 3]];
-    ++tallies[component[corner / 3]].fans;
-  }
+  for_each_corner(triangles, [&](std::uint32_t t, std::uint32_t v, std::uint32_t corner) {
+    if (c.fans.find(corner) != corner) return;
+    ++fans_at[v];
+    ++tallies[component[t]].fans;
+  });
   for (const std::uint32_t fans : fans_at) {
     if (fans > 0) ++summary.vertices;
     if (fans > 1) ++summary.nonmanifold_vertices;
   }
   // Triangles component by component, so that one mark per vertex tells whether it was met there.
-  std::vector<std::uint32_t> order(triangles.size()), seen_in(vertices, none);
+  std::vector<std::uint32_t> order(triangles.size()), seen_in(vertices, no_index);
   std::iota(order.begin(), order.end(), 0u);
   if (tallies.size() > 1)
     std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return component[a] < component[b]; });

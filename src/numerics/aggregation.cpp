@@ -8,7 +8,6 @@
 namespace eigencrust {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffffu;
 // Nodes are matched inside blocks of this many, all threads at a time; what is left over is matched after.
 constexpr std::size_t matching_block = 32768;
 
@@ -21,11 +20,11 @@ class RowSums {
     double sum, size;
   };
 
-  explicit RowSums(std::size_t columns) : place_(columns, none) {}
+  explicit RowSums(std::size_t columns) : place_(columns, no_index) {}
 
   void add(std::uint32_t column, double value) {
     std::uint32_t& place = place_[column];
-    if (place == none) {
+    if (place == no_index) {
       place = static_cast<std::uint32_t>(entry_.size());
       entry_.push_back({column, value, std::fabs(value)});
       return;
@@ -38,7 +37,7 @@ class RowSums {
   template <class Visit>
   void take(const Visit& visit) {
     for (const Entry& e : entry_) {
-      place_[e.column] = none;
+      place_[e.column] = no_index;
       if (std::fabs(e.sum) > 1e-7 * e.size) visit(e.column, static_cast<float>(e.sum));
     }
     entry_.clear();
@@ -126,7 +125,7 @@ template <class Entries>
 class Matching {
  public:
   Matching(const Entries& entries, const Threads& threads)
-      : entries_(entries), partner_(entries.size(), none), attracts_(entries.size(), 1), scale_(entries.size()) {
+      : entries_(entries), partner_(entries.size(), no_index), attracts_(entries.size(), 1), scale_(entries.size()) {
     for_each_index(threads, scale_.size(), [&](std::size_t i) {
       const double d = entries.diagonal(static_cast<std::uint32_t>(i));
       scale_[i] = d > 0 ? static_cast<float>(1 / std::sqrt(d)) : 0.0f;
@@ -144,10 +143,10 @@ class Matching {
   Aggregation aggregation(const Threads& threads) const {
     Aggregation a;
     const std::size_t n = partner_.size();
-    a.aggregate.assign(n, none);
+    a.aggregate.assign(n, no_index);
     a.sign.assign(n, 1);
     std::vector<std::uint32_t> pairs((n + default_block - 1) / default_block);
-    const auto leads = [&](std::size_t i) { return partner_[i] != none && partner_[i] > i; };
+    const auto leads = [&](std::size_t i) { return partner_[i] != no_index && partner_[i] > i; };
     for_blocks(threads, n, default_block, [&](std::size_t begin, std::size_t end, std::size_t b) {
       for (std::size_t i = begin; i < end; ++i) pairs[b] += leads(i);
     });
@@ -169,7 +168,7 @@ class Matching {
 
  private:
   struct Strongest {
-    std::uint32_t node = none;
+    std::uint32_t node = no_index;
     float strength = -1;
     std::int8_t attracts = 1; ///< +1 or -1
   };
@@ -190,9 +189,9 @@ class Matching {
 
   /// Pairs a free node with its strongest free neighbour.
   void match(std::uint32_t i, typename Entries::Reader& read) {
-    if (partner_[i] != none) return;
-    const Strongest best = strongest(i, read, [&](std::uint32_t j) { return partner_[j] == none; });
-    if (best.node == none) return;
+    if (partner_[i] != no_index) return;
+    const Strongest best = strongest(i, read, [&](std::uint32_t j) { return partner_[j] == no_index; });
+    if (best.node == no_index) return;
     partner_[i] = best.node;
     partner_[best.node] = i;
     attracts_[i] = attracts_[best.node] = best.attracts;
@@ -201,7 +200,7 @@ class Matching {
   std::vector<std::uint32_t> free_nodes() const {
     std::vector<std::uint32_t> result;
     for (std::uint32_t i = 0; i < partner_.size(); ++i)
-      if (partner_[i] == none) result.push_back(i);
+      if (partner_[i] == no_index) result.push_back(i);
     return result;
   }
 
@@ -219,7 +218,8 @@ class Matching {
     const std::vector<std::uint32_t> free = free_nodes();
     std::vector<std::uint8_t> has_choice(free.size());
     for_each_with_reader(threads, free.size(), [&](std::size_t k, typename Entries::Reader& read) {
-      has_choice[k] = strongest(free[k], read, [&](std::uint32_t j) { return partner_[j] == none; }).node != none;
+      has_choice[k] =
+          strongest(free[k], read, [&](std::uint32_t j) { return partner_[j] == no_index; }).node != no_index;
     });
     typename Entries::Reader read(entries_, 0, entries_.size());
     for (std::size_t k = 0; k < free.size(); ++k)
@@ -234,7 +234,7 @@ class Matching {
     });
     std::vector<Follower> result;
     for (std::size_t k = 0; k < free.size(); ++k)
-      if (best[k].node != none) result.push_back({free[k], best[k].node, best[k].attracts});
+      if (best[k].node != no_index) result.push_back({free[k], best[k].node, best[k].attracts});
     return result;
   }
 
@@ -247,7 +247,7 @@ class Matching {
 void list_members(Aggregation& a) {
   a.members = build_rows<std::uint32_t>(a.count, [&](auto&& visit) {
     for (std::uint32_t i = 0; i < a.aggregate.size(); ++i)
-      if (a.aggregate[i] != none) visit(a.aggregate[i], i);
+      if (a.aggregate[i] != no_index) visit(a.aggregate[i], i);
   });
 }
 
@@ -331,9 +331,9 @@ Coarsening coarsen_by_pairs_twice(const BorderedMatrix& matrix, const Threads& t
   Aggregation second = Matching(pairs, threads).aggregation(threads);
   // A pair without neighbours after the first round still is one unknown of the coarse level.
   for (std::uint32_t& g : second.aggregate)
-    if (g == none) g = second.count++;
+    if (g == no_index) g = second.count++;
   for_each_index(threads, a.aggregate.size(), [&](std::size_t i) {
-    if (a.aggregate[i] == none) return;
+    if (a.aggregate[i] == no_index) return;
     const std::uint32_t g = a.aggregate[i];
     a.sign[i] = static_cast<std::int8_t>(a.sign[i] * second.sign[g]);
     a.aggregate[i] = second.aggregate[g];

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <eigencrust/types.h>
+
 #include "numerics/bordered_matrix.h"
 #include "parallel/compressed_rows.h"
 
@@ -13,7 +15,7 @@ namespace eigencrust {
 
 struct Aggregation {
   std::uint32_t count = 0;
-  std::vector<std::uint32_t> aggregate;  ///< 0xffffffff: no interior neighbour, ends here
+  std::vector<std::uint32_t> aggregate;  ///< no_index: no interior neighbour, ends here
   std::vector<std::int8_t> sign;         ///< +1 or -1: moves with or against its aggregate
   CompressedRows<std::uint32_t> members; ///< of each aggregate, increasing
 };

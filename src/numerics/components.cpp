@@ -8,10 +8,9 @@
 namespace eigencrust {
 
 Components connected_components(const SignedGraph& graph) {
-  constexpr std::uint32_t none = 0xffffffffu;
   const std::uint32_t n = graph.node_count();
   Components result;
-  result.of_node.assign(n, none);
+  result.of_node.assign(n, no_index);
   std::vector<std::uint32_t> stack;
   const auto flood = [&](std::uint32_t number) {
     while (!stack.empty()) {
@@ -19,7 +18,7 @@ Components connected_components(const SignedGraph& graph) {
       stack.pop_back();
       for (std::uint64_t e = graph.row_begin[i]; e < graph.row_begin[i + 1]; ++e) {
         const std::uint32_t j = graph.column[e];
-        if (result.of_node[j] != none) continue;
+        if (result.of_node[j] != no_index) continue;
         result.of_node[j] = number;
         stack.push_back(j);
       }
@@ -27,14 +26,14 @@ Components connected_components(const SignedGraph& graph) {
   };
   for (const SignedGraph::Supernode& super : graph.supernodes)
     for (std::uint32_t i = 0; i < n; ++i)
-      if (super.weight[i] != 0 && result.of_node[i] == none) {
+      if (super.weight[i] != 0 && result.of_node[i] == no_index) {
         result.of_node[i] = 0;
         stack.push_back(i);
       }
   flood(0);
   result.count = 1;
   for (std::uint32_t i = 0; i < n; ++i) {
-    if (result.of_node[i] != none) continue;
+    if (result.of_node[i] != no_index) continue;
     result.of_node[i] = result.count;
     stack.push_back(i);
     flood(result.count++);

@@ -11,7 +11,6 @@
 namespace eigencrust {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffffu;
 // A round that merges fewer nodes is the last: what is left is a few long chains at large nodes, and each round costs a
 // pass over all edges.
 constexpr double least_share = 0.01;
@@ -127,7 +126,7 @@ ReducedGraph merge_dominated_nodes(const SignedGraph& whole, const Threads& thre
     for (std::uint32_t i = 0; i < dominant.size(); ++i)
       if (dominant[i] < graph->weight.size())
         sets.unite(i, graph->column[dominant[i]], graph->weight[dominant[i]] > 0 ? 1 : -1);
-    std::vector<std::uint32_t> node(dominant.size(), none);
+    std::vector<std::uint32_t> node(dominant.size(), no_index);
     std::vector<std::int8_t> sign(dominant.size());
     std::uint32_t nodes = 0;
     for (std::uint32_t i = 0; i < node.size(); ++i) {

@@ -164,7 +164,7 @@ void SignedMultigrid::prolongate(std::size_t level, const Vector& coarse, Vector
   const std::uint32_t n = fine.matrix.interior_size();
   x.resize(fine.matrix.size());
   for_each_index(threads, n,
-                 [&](std::size_t i) { x[i] = a.aggregate[i] == none ? 0.0 : a.sign[i] * coarse[a.aggregate[i]]; });
+                 [&](std::size_t i) { x[i] = a.aggregate[i] == no_index ? 0.0 : a.sign[i] * coarse[a.aggregate[i]]; });
   for (std::uint32_t s = 0; s < fine.matrix.border_size(); ++s) x[n + s] = coarse[a.count + s];
 }
 
@@ -206,7 +206,7 @@ void SignedMultigrid::add_correction(std::size_t level, const FloatVector& coars
   const Aggregation& a = levels_[level].aggregation;
   const std::size_t n = levels_[level].matrix.interior_size();
   for_each_index(threads, n, [&](std::size_t i) {
-    if (a.aggregate[i] != none) {
+    if (a.aggregate[i] != no_index) {
       const float c = over_correction * coarse[a.aggregate[i]];
       x[i] += a.sign[i] > 0 ? c : -c;
     }

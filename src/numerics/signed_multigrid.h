@@ -37,7 +37,6 @@ class SignedMultigrid {
     };
     std::vector<Vectors> level;
   };
-  static constexpr std::uint32_t none = 0xffffffffu;
   static constexpr std::uint32_t coarsest_size = 400; ///< solved densely
 
   /// \param matrix moved into the finest level

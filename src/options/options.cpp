@@ -71,6 +71,11 @@ std::string shortest(double value) {
 
 } // namespace
 
+std::optional<double> LengthChoice::given(double diagonal) const {
+  if (kind == Kind::automatic) return std::nullopt;
+  return kind == Kind::off ? 0 : kind == Kind::percent ? value / 100 * diagonal : value;
+}
+
 Options Options::of(Preset preset) {
   Options options;
   options.preset = preset;

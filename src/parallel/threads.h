@@ -16,6 +16,8 @@ namespace eigencrust {
 
 /// Block length for loops over n cheap items: short loops stay on the calling thread.
 constexpr std::size_t default_block = 16384;
+/// The same for items that are a search or a walk each: dear beside the start of a block, few beside a small cloud.
+constexpr std::size_t costly_block = 64;
 
 /// work(begin, end, block) for consecutive blocks of [0, n).
 template <class Work>

@@ -5,21 +5,22 @@
 
 #include <eigencrust/stages.h>
 
+#include "samples/sample_model.h"
+
 namespace eigencrust {
 
 /// Which samples belong to the surface, from the labels (not in the paper; docs/decisions/0014).
 struct Classification {
   IndexedArray<SampleIndex, std::uint8_t> inlier; ///< 1 exactly where the confidence is at least 0.5
-  /// 1/(1 + (d/τ)²), d being how far the sample is from the surface that its neighbours make and τ the
-  /// tolerance: 1.25 local spacings or 3 deviations of the noise.
+  /// 1/(1 + (d/τ)²), d being how far the sample is from the surface that its neighbours make and τ the tolerance of
+  /// the samples there.
   IndexedArray<SampleIndex, float> confidence;
   /// Vertices of the triangle of `surface` that is nearest; three times the same one where that is a vertex.
   /// Of samples with a plausible vertex of their own it is that.
   IndexedArray<SampleIndex, std::array<std::uint32_t, 3>> place;
 };
 /// \param surface as kept: pieces that were dropped make no inliers
-/// \param grid_spacing a length per sample, 1.2 deviations of the noise; empty: no noise
 Classification classify_samples(const Tetrahedralization& tetrahedralization, const Surface& surface,
-                                std::span<const float> grid_spacing, const Threads& threads);
+                                const SampleModel& model, const Threads& threads);
 
 } // namespace eigencrust

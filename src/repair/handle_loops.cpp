@@ -8,7 +8,7 @@
 namespace eigencrust {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffffu;
+constexpr std::uint32_t none = no_index;
 
 struct Edge {
   std::uint32_t low, high;   ///< vertices

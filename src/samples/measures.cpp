@@ -12,36 +12,23 @@ constexpr float grid_spacing_in_deviations = 1.2f;
 
 /// The noise that the options give; none: it is to be measured.
 std::optional<double> given_noise(const Options& options, double diagonal) {
-  using Kind = LengthChoice::Kind;
-  const bool by_grid = options.noise.kind == Kind::automatic;
-  const LengthChoice& choice = by_grid ? options.grid_spacing : options.noise;
-  const double unit = by_grid ? 1 / static_cast<double>(grid_spacing_in_deviations) : 1;
-  switch (choice.kind) {
-    case Kind::automatic:
-      return std::nullopt;
-    case Kind::off:
-      return 0;
-    case Kind::length:
-      return unit * choice.value;
-    case Kind::percent:
-      return unit * choice.value / 100 * diagonal;
-  }
-  return std::nullopt;
+  if (const auto noise = options.noise.given(diagonal)) return noise;
+  const auto grid = options.grid_spacing.given(diagonal);
+  return grid ? std::optional(*grid / static_cast<double>(grid_spacing_in_deviations)) : std::nullopt;
 }
 
 } // namespace
 
 std::vector<float> reach_for_poles(const SampleMeasures& measures) {
-  // From the middle of the noise to where it thins out on either side.
-  constexpr float reach_in_deviations = 2.4f;
-  // Beyond a dozen spacings there are thousands of samples to look at, and none knows better.
+  // Twice ℓ: from the middle of the noise to where it thins out on either side. Beyond a dozen spacings there are
+  // thousands of samples to look at, and none knows better.
   constexpr float farthest_in_spacings = 12;
   const SampleModel& model = measures.model;
   if (measures.trusts_all || measures.grid.empty()) return {};
   std::vector<float> reach(model.noise.size());
   for (std::size_t i = 0; i < reach.size(); ++i)
     if (measures.grid[i] >= model.spacing[i])
-      reach[i] = std::min(farthest_in_spacings * model.spacing[i], reach_in_deviations * model.noise[i]);
+      reach[i] = std::min(farthest_in_spacings * model.spacing[i], 2 * measures.grid[i]);
   return reach;
 }
 

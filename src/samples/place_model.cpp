@@ -14,14 +14,14 @@ namespace {
 
 // Neighbourhoods grow threefold in number, about 1.7-fold in radius on a surface; from the fourth on they are told
 // from a third, a ninth ... of the samples.
-constexpr std::array<std::size_t, 3> sizes{10, 30, 90};
-constexpr std::size_t growth = 3, most_coarser = 4;
+constexpr std::size_t narrowest = 10, growth = 3;
+constexpr std::array<std::size_t, 3> sizes{narrowest, narrowest* growth, narrowest* growth* growth};
 // Neighbourhoods that are not flat must fit so many times into the cloud: a larger one is as thick as the object.
 constexpr std::size_t least_neighbourhoods = 20;
 
 // The middle of the noise is that of the samples within 3 σ, weighted by their distance with a deviation of 2 σ; so
 // many of them say where it is.
-constexpr double radius_in_sigmas = 3, deviation_in_sigmas = 2;
+constexpr double deviation_in_sigmas = 2;
 constexpr std::size_t enough_samples = 40;
 
 /// Thickness² = σ² + c radius²: a crease has c > 0 and σ = 0, a smooth surface grows even faster.
@@ -35,9 +35,8 @@ double thickness_without_growth(const LocalFrame& inner, const LocalFrame& outer
 } // namespace
 
 PlaceModels::PlaceModels(std::span<const Vec3> positions, const PointTree& tree) : positions_(positions), tree_(tree) {
-  std::size_t step = growth;
-  for (std::size_t k = 0; k < most_coarser; ++k, step *= growth) {
-    if (sizes.back() * step * least_neighbourhoods > positions.size() * growth) break;
+  for (std::size_t step = growth; sizes.back() * step * least_neighbourhoods <= positions.size() * growth;
+       step *= growth) {
     std::vector<Vec3> some;
     some.reserve(positions.size() / step + 1);
     for (std::size_t i = step / 2; i < positions.size(); i += step) some.push_back(positions[i]);
@@ -50,16 +49,15 @@ PlaceModels::PlaceModels(std::span<const Vec3> positions, const PointTree& tree)
 /// Are most of the narrowest neighbourhoods flat? In noise one in seven is, by chance; on thin rods and in lattices,
 /// which look thick from afar, nearly all are.
 bool PlaceModels::is_smooth_up_close(std::span<const Vec3> points, std::span<const std::uint32_t> around) const {
-  constexpr std::size_t looks = 9;
   std::array<std::uint32_t, sizes[0]> index{};
   std::array<double, sizes[0]> square{};
   std::size_t flat = 0;
-  for (std::size_t k = 0; k < looks; ++k) {
-    const Vec3& at = points[around[k * (around.size() - 1) / (looks - 1)]];
+  for (std::size_t k = 0; k < narrowest; ++k) {
+    const Vec3& at = points[around[k * (around.size() - 1) / (narrowest - 1)]];
     const std::size_t found = tree_.nearest(at, sizes[0], index.data(), square.data());
     flat += local_frame(positions_, std::span(index).first(found), at).is_flat();
   }
-  return 2 * flat > looks;
+  return 2 * flat > narrowest;
 }
 
 PlaceModel PlaceModels::at(const Vec3& place) const {
@@ -100,7 +98,7 @@ PlaceModel PlaceModels::at(const Vec3& place) const {
 }
 
 MeanPlane PlaceModels::mean_plane(const Vec3& place, double noise) const {
-  const double radius = radius_in_sigmas * noise, deviation = deviation_in_sigmas * noise;
+  const double radius = static_cast<double>(noise_bound) * noise, deviation = deviation_in_sigmas * noise;
   std::span<const Vec3> points = positions_;
   std::vector<std::uint32_t> index;
   for (std::size_t k = coarser_.size(); k-- > 0 && index.size() < enough_samples;) {

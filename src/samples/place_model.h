@@ -17,6 +17,9 @@ struct PlaceModel {
   double noise = 0;     ///< standard deviation across the surface
 };
 
+/// Nearly all noise is within so many standard deviations.
+constexpr float noise_bound = 3;
+
 /// The middle of noisy samples.
 struct MeanPlane {
   Vec3 mean, normal; ///< normal: unit
@@ -29,7 +32,7 @@ class PlaceModels {
   PlaceModels(std::span<const Vec3> positions, const PointTree& tree);
 
   [[nodiscard]] PlaceModel at(const Vec3& place) const;
-  /// Of the samples within 3 deviations of the noise, with Gaussian weights of 2 deviations.
+  /// Of the samples within the bound of the noise, with Gaussian weights of 2 deviations.
   [[nodiscard]] MeanPlane mean_plane(const Vec3& place, double noise) const;
 
  private:

@@ -21,12 +21,10 @@ constexpr std::size_t spacing_neighbours = 12;
 constexpr std::uint32_t samples_per_place = 64;
 // The noise of a place is the upper quartile of that many places around: spots where nothing is told from curvature
 // must not read as free of it.
-constexpr std::size_t smoothing_places = 48;
+// The level of the surface is the median of as many. Fewer places say nothing of the whole: a small body has edges
+// everywhere.
+constexpr std::size_t places_around = 48;
 constexpr double smoothing_quantile = 0.75;
-// Fewer places say nothing of the whole: a small body has edges everywhere.
-constexpr std::size_t enough_places = 32;
-// The level of the nearest surface is the median of so many places.
-constexpr std::size_t level_places = 8;
 // A sample is isolated when it stands so many times lonelier ...
 constexpr double isolation = 2.5;
 // ... and so many neighbours are in no plane: their smallest deviation is more than so much of the second.
@@ -50,7 +48,7 @@ std::vector<float> spacings(const PointTree& tree, std::span<const Vec3> positio
         const std::size_t found = tree.nearest(positions[i], index.size(), index.data(), square.data());
         result[i] = static_cast<float>(spacing_at(std::sqrt(square[found - 1]), found - 1));
       },
-      2048);
+      costly_block);
   return result;
 }
 
@@ -58,13 +56,13 @@ std::vector<float> spacings(const PointTree& tree, std::span<const Vec3> positio
 struct Places {
   std::vector<Vec3> at;
   std::vector<PlaceModel> model;
-  std::vector<float> spacing, noise; ///< noise: smooth
+  std::vector<float> spacing;
 };
 
 Places measure_places(const PlaceModels& models, std::span<const Vec3> positions, std::span<const float> spacing,
                       const Threads& threads) {
   const std::size_t n = positions.size(), count = (n + samples_per_place - 1) / samples_per_place;
-  Places places{std::vector<Vec3>(count), std::vector<PlaceModel>(count), std::vector<float>(count), {}};
+  Places places{std::vector<Vec3>(count), std::vector<PlaceModel>(count), std::vector<float>(count)};
   for_each_index(
       threads, count,
       [&](std::size_t p) {
@@ -73,14 +71,15 @@ Places measure_places(const PlaceModels& models, std::span<const Vec3> positions
         places.spacing[p] = spacing[middle];
         places.model[p] = models.at(places.at[p]);
       },
-      32);
+      costly_block);
   return places;
 }
 
-/// The quantile of the values of the `wanted` nearest flat places, at each place.
-template <class Value>
-std::vector<float> over_flat_places(const Places& places, std::size_t wanted, const Value& value, double share,
-                                    float otherwise, const Threads& threads) {
+/// What the flat places around each place say.
+struct Surroundings {
+  std::vector<float> level, noise; ///< median of the spacings, infinite where there are none; upper quartile, 0
+};
+Surroundings flat_places_around(const Places& places, const Threads& threads) {
   std::vector<Vec3> at;
   std::vector<std::uint32_t> number;
   for (std::uint32_t p = 0; p < places.at.size(); ++p) {
@@ -88,20 +87,23 @@ std::vector<float> over_flat_places(const Places& places, std::size_t wanted, co
     at.push_back(places.at[p]);
     number.push_back(p);
   }
-  std::vector<float> result(places.at.size(), otherwise);
+  const std::size_t n = places.at.size();
+  Surroundings result{std::vector<float>(n, std::numeric_limits<float>::infinity()), std::vector<float>(n, 0)};
   if (at.empty()) return result;
   const PointTree tree(at);
-  for_each_index(
-      threads, result.size(),
-      [&](std::size_t p) {
-        std::array<std::uint32_t, smoothing_places> index{};
-        std::array<double, smoothing_places> square{};
-        const std::size_t found = tree.nearest(places.at[p], wanted, index.data(), square.data());
-        std::vector<float> values;
-        for (std::size_t k = 0; k < found; ++k) values.push_back(value(number[index[k]]));
-        result[p] = quantile(values, share);
-      },
-      256);
+  const auto look = [&](std::size_t p) {
+    std::array<std::uint32_t, places_around> index{};
+    std::array<double, places_around> square{};
+    const std::size_t found = tree.nearest(places.at[p], index.size(), index.data(), square.data());
+    std::vector<float> spacing, noise;
+    for (const std::uint32_t i : std::span(index).first(found)) {
+      spacing.push_back(places.spacing[number[i]]);
+      noise.push_back(static_cast<float>(places.model[number[i]].noise));
+    }
+    result.level[p] = median(spacing);
+    result.noise[p] = quantile(noise, smoothing_quantile);
+  };
+  for_each_index(threads, n, look, costly_block);
   return result;
 }
 
@@ -132,7 +134,7 @@ void measure_planes(const PlaceModels& models, std::span<const Vec3> positions, 
           place = place + (1.0 / static_cast<double>(end - begin)) * positions[i];
         planes[r] = models.mean_plane(place, static_cast<double>(model.noise[begin]));
       },
-      64);
+      costly_block);
   if (std::find(noisy.begin(), noisy.end(), 1) != noisy.end()) model.plane = std::move(planes);
 }
 
@@ -145,28 +147,23 @@ SampleModel sample_model(std::span<const Vec3> positions, std::optional<double> 
   model.typical_spacing = typical_of(model.spacing);
   const PlaceModels models(positions, tree);
   const Places places = measure_places(models, positions, model.spacing, threads);
-  if (places.at.size() >= enough_places)
+  if (places.at.size() >= places_around)
     model.flat_share = static_cast<double>(std::count_if(places.model.begin(), places.model.end(),
                                                          [](const PlaceModel& m) { return m.is_flat; })) /
                        static_cast<double>(places.at.size());
-  const auto level = over_flat_places(
-      places, level_places, [&](std::uint32_t p) { return places.spacing[p]; }, 0.5,
-      std::numeric_limits<float>::infinity(), threads);
-  const auto noise = over_flat_places(
-      places, smoothing_places, [&](std::uint32_t p) { return static_cast<float>(places.model[p].noise); },
-      smoothing_quantile, 0, threads);
+  const auto [level, noise] = flat_places_around(places, threads);
   model.noise.resize(positions.size());
   model.isolated.assign(positions.size(), 0.0f);
   for_each_index(
       threads, positions.size(),
-      [&](std::size_t i) {
+      [&, &level = level, &noise = noise](std::size_t i) {
         const std::size_t place = i / samples_per_place;
         model.noise[i] = given ? static_cast<float>(*given) : noise[place];
         if (!(static_cast<double>(model.spacing[i]) > isolation * static_cast<double>(level[place]))) return;
         model.isolated[i] = lonely_radius(tree, positions, positions[i]);
         if (model.isolated[i] > 0) model.spacing[i] = level[place];
       },
-      512);
+      costly_block);
   measure_planes(models, positions, model, threads);
   return model;
 }

@@ -3,6 +3,7 @@
 /// What the samples say of themselves: how close they stand, how noisy they are, which of them stand alone.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -31,6 +32,11 @@ struct SampleModel {
   double typical_spacing = 0; ///< median, for people
   /// Share of the places measured around which some neighbourhood is flat; 1 where there are too few to tell.
   double flat_share = 1;
+
+  /// How far a sample may be from the surface: a spacing, or what noise explains.
+  [[nodiscard]] double tolerance(SampleIndex s) const {
+    return static_cast<double>(std::max(spacing[s.value], noise_bound * noise[s.value]));
+  }
 
   static constexpr std::uint32_t run = 8; ///< longer runs are as wide as the tip of an ear
   /// Is the noise so large beside the spacing that no single sample sees both sides?

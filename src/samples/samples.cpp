@@ -41,13 +41,14 @@ void sort_along_curve(std::span<Keyed> samples, const Box3& box, const Threads& 
 
 void check_extent(const Box3& box) {
   // Squares and cubes of lengths must stay within the range of double.
+  constexpr double largest = 1e30;
   const double extent = box.diagonal();
   const double farthest = std::max({std::fabs(box.min.x), std::fabs(box.min.y), std::fabs(box.min.z),
                                     std::fabs(box.max.x), std::fabs(box.max.y), std::fabs(box.max.z)});
-  if (!(extent < 1e30) || farthest > 1e30)
+  if (!(extent < largest) || farthest > largest)
     throw Error(ErrorKind::input, "samples", "coordinates are larger than 1e30",
                 "remove stray rows or change the unit of the input");
-  if (extent < 1e-30)
+  if (extent < 1 / largest)
     throw Error(ErrorKind::input, "samples", "all finite points lie within 1e-30 of each other",
                 "give at least 5 distinct points, or change the unit of the input");
 }
@@ -70,8 +71,10 @@ Vec3 exact_origin(std::span<const Vec3> points, const Box3& box, const Threads& 
 } // namespace
 
 Samples prepare_samples(std::span<const Vec3> points, const Threads& threads) {
-  if (points.size() > 0xfffffff0u)
-    throw Error(ErrorKind::input, "samples", "more than 4,294,967,280 points", "split the cloud");
+  constexpr std::size_t cube_corners = 8; // the tetrahedralization numbers them behind the samples
+  constexpr std::size_t most = no_index - cube_corners;
+  if (points.size() > most)
+    throw Error(ErrorKind::input, "samples", "more than " + std::to_string(most) + " points", "split the cloud");
   Samples samples;
   for (const Vec3& p : points) {
     if (is_finite(p))
@@ -92,7 +95,7 @@ Samples prepare_samples(std::span<const Vec3> points, const Threads& threads) {
   sort_along_curve(keyed, box, threads);
 
   // Rows with equal coordinates follow one another; the first has the smallest row.
-  samples.positions.raw().reserve(finite + 8);
+  samples.positions.raw().reserve(finite + cube_corners);
   samples.source.raw().reserve(finite);
   samples.of_row.resize(points.size());
   for (const Keyed& k : keyed) {
@@ -140,16 +143,7 @@ double median_spacing(const Samples& samples, std::span<const Vec3> points, std:
 
 double resolve_grid_spacing(const LengthChoice& option, const Samples& samples, std::span<const Vec3> points,
                             std::span<const std::uint32_t> scan_index, const Threads& threads) {
-  switch (option.kind) {
-    case LengthChoice::Kind::off:
-      return 0;
-    case LengthChoice::Kind::length:
-      return option.value;
-    case LengthChoice::Kind::percent:
-      return option.value / 100 * samples.bounds.diagonal();
-    case LengthChoice::Kind::automatic:
-      break;
-  }
+  if (const auto given = option.given(samples.bounds.diagonal())) return *given;
   // Merged scans disagree by their registration; a single scan gives no such sign.
   const bool several =
       std::any_of(scan_index.begin(), scan_index.end(), [&](std::uint32_t scan) { return scan != scan_index.front(); });

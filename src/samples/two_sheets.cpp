@@ -15,6 +15,7 @@ constexpr double least_share = 1.0 / 6;
 
 // Six terms of z(x, y), and how much higher the upper sheet is.
 using Fit = Eigen::Matrix<double, 7, 1>;
+constexpr Eigen::Index is_upper = Fit::RowsAtCompileTime - 1; // the term that is 1 on the upper sheet
 
 /// Heights over the best quadric that both sheets share.
 class SheetFit {
@@ -31,21 +32,23 @@ class SheetFit {
     }
   }
 
-  void set_upper(std::size_t k, bool upper) { terms_[k][6] = upper ? 1 : 0; }
+  void set_upper(std::size_t k, bool upper) { terms_[k][is_upper] = upper ? 1 : 0; }
   /// \return how much higher the upper sheet is; 0 while none is set
   double fit() {
-    Eigen::Matrix<double, 7, 7> normal = Eigen::Matrix<double, 7, 7>::Zero();
+    auto normal = (Fit::Zero() * Fit::Zero().transpose()).eval();
     Fit right = Fit::Zero();
     for (std::size_t k = 0; k < terms_.size(); ++k) {
       normal += terms_[k] * terms_[k].transpose();
       right += height_[k] * terms_[k];
     }
-    if (!(normal(6, 6) > 0)) normal(6, 6) = 1;
+    if (!(normal(is_upper, is_upper) > 0)) normal(is_upper, is_upper) = 1;
     fit_ = normal.ldlt().solve(right);
-    return fit_[6];
+    return fit_[is_upper];
   }
   /// Over the lower sheet.
-  [[nodiscard]] double offset(std::size_t k) const { return height_[k] - fit_.head<6>().dot(terms_[k].head<6>()); }
+  [[nodiscard]] double offset(std::size_t k) const {
+    return height_[k] - fit_.head<is_upper>().dot(terms_[k].head<is_upper>());
+  }
   /// Deviation from the own sheet.
   [[nodiscard]] double deviation() const {
     double squares = 0;

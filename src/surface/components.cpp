@@ -17,10 +17,8 @@
 namespace eigencrust {
 namespace {
 
-// docs/decisions/0004: specks, pieces lost in the noise, pieces that the samples do not bear out, and those of
-// outliers.
+// docs/decisions/0004: specks, pieces that the samples do not bear out, and those of outliers.
 constexpr double speck_vertices = 20, speck_share = 5e-4;
-constexpr double extent_in_sigmas = 5;
 constexpr double least_support = 0.4;
 // Of its vertices: isolated samples are on no surface, and on the largest piece of scans full of outliers 0.01 at most.
 constexpr double most_isolated = 0.05;
@@ -32,38 +30,27 @@ struct Piece {
   std::vector<std::uint32_t> vertices;
   double support = 0;  ///< mean over the area
   double isolated = 0; ///< share of the vertices
-  double extent = 0;   ///< diagonal of its box in mean deviations of the noise; infinite where there is no noise
   Vec3 centre;
 };
-
-double area(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& v) {
-  return norm(cross(mesh.vertices[v[1]] - mesh.vertices[v[0]], mesh.vertices[v[2]] - mesh.vertices[v[0]])) / 2;
-}
 
 /// \param met vertices that this function has met; marks those of the piece
 void measure(const Surface& surface, const SampleModel& model, std::uint32_t number, Piece& piece,
              std::vector<std::uint32_t>& met) {
   double supported = 0, whole = 0;
   for (const std::uint32_t i : piece.triangles) {
-    const auto& v = surface.mesh.triangles[i];
-    for (const std::uint32_t corner : v)
+    for (const std::uint32_t corner : surface.mesh.triangles[i])
       if (std::exchange(met[corner], number) != number) piece.vertices.push_back(corner);
-    const double a = area(surface.mesh, v);
+    const double a = norm(area_vector(surface.mesh, i)) / 2;
     supported += a * static_cast<double>(surface.support[i]);
     whole += a;
   }
   piece.support = whole > 0 ? supported / whole : 0;
   const auto count = static_cast<double>(piece.vertices.size());
-  Box3 box;
-  double sigma = 0;
   for (const std::uint32_t v : piece.vertices) {
-    box.add(surface.mesh.vertices[v]);
     piece.centre = piece.centre + (1 / count) * surface.mesh.vertices[v];
     const std::uint32_t s = surface.sample_of[v].value;
-    if (!model.noise.empty()) sigma += static_cast<double>(model.noise[s]) / count;
     if (!model.isolated.empty() && model.isolated[s] > 0) piece.isolated += 1 / count;
   }
-  piece.extent = box.diagonal() / sigma; // no noise: infinite
 }
 
 std::vector<Piece> measure_pieces(const Surface& surface, const SampleModel& model, const Threads& threads) {
@@ -86,8 +73,7 @@ bool is_crumpled(const Surface& surface, const Piece& piece, std::vector<std::ui
   std::vector<Vec3> normal;
   for (const std::uint32_t i : piece.triangles) {
     const auto& [a, b, c] = surface.mesh.triangles[i];
-    const Vec3 &pa = surface.mesh.vertices[a], &pb = surface.mesh.vertices[b], &pc = surface.mesh.vertices[c];
-    const Vec3 n = cross(pb - pa, pc - pa);
+    const Vec3 n = area_vector(surface.mesh, i);
     triangles.push_back({number[a], number[b], number[c]});
     normal.push_back((1 / norm(n)) * n);
   }
@@ -109,9 +95,8 @@ std::vector<std::uint8_t> supported(const Surface& surface, const std::vector<Pi
   for (std::size_t k = 1; k < order.size(); ++k) {
     const Piece& piece = pieces[order[k]];
     const double least = speck_vertices + speck_share * static_cast<double>(pieces[order[0]].vertices.size());
-    kept[order[k]] = static_cast<double>(piece.vertices.size()) >= least && piece.extent >= extent_in_sigmas &&
-                     piece.support >= least_support && piece.isolated <= most_isolated &&
-                     !is_crumpled(surface, piece, number);
+    kept[order[k]] = static_cast<double>(piece.vertices.size()) >= least && piece.support >= least_support &&
+                     piece.isolated <= most_isolated && !is_crumpled(surface, piece, number);
   }
   return kept;
 }

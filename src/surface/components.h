@@ -10,7 +10,7 @@
 namespace eigencrust {
 
 /// Removes pieces of the surface by `keep`; see docs/parameters.md for `supported`. Expects surface.support.
-/// \param model its noise and isolated samples count; both may be empty
+/// \param model its isolated samples count; may be empty
 std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComponents& keep,
                                                 const Tetrahedralization& tetrahedralization, const SampleModel& model,
                                                 const Threads& threads);

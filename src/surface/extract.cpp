@@ -2,6 +2,7 @@
 // §3: the surface is every face between an inside and an outside tetrahedron.
 #include <eigencrust/stages.h>
 
+#include "geometry/tetrahedron.h"
 #include "parallel/threads.h"
 
 namespace eigencrust {
@@ -15,8 +16,6 @@ struct Faces {
 };
 
 Faces faces_of(const Tetrahedralization& t, const Labels& labels, std::size_t begin, std::size_t end) {
-  // Face k, counter-clockwise seen from outside the (positively oriented) tetrahedron.
-  static constexpr std::array<std::array<std::size_t, 3>, 4> face{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
   Faces faces;
   for (std::size_t i = begin; i < end; ++i) {
     if (labels.raw()[i] != Label::inside) continue;
@@ -24,7 +23,7 @@ Faces faces_of(const Tetrahedralization& t, const Labels& labels, std::size_t be
     for (std::size_t k = 0; k < 4; ++k) {
       const TetrahedronIndex n = t.neighbours.raw()[i][k];
       if (!n.valid() || labels[n] != Label::outside) continue;
-      const std::array<SampleIndex, 3> triangle{v[face[k][0]], v[face[k][1]], v[face[k][2]]};
+      const std::array<SampleIndex, 3> triangle{v[face_opposite[k][0]], v[face_opposite[k][1]], v[face_opposite[k][2]]};
       // Only with a façade can inside reach the cube; such triangles are trimmed (§3.1).
       if (t.is_corner(triangle[0]) || t.is_corner(triangle[1]) || t.is_corner(triangle[2])) continue;
       faces.triangles.push_back(triangle);

@@ -5,6 +5,7 @@
 
 #include <eigencrust/stages.h>
 
+#include "geometry/mesh_topology.h"
 #include "parallel/compressed_rows.h"
 
 namespace eigencrust {
@@ -17,26 +18,18 @@ constexpr double taubin_mu = -1 / (1 / taubin_lambda - 0.1);
 using Rings = CompressedRows<std::uint32_t>;
 
 /// Neighbours of every vertex, increasing; none for vertices of open edges, so that boundaries stay.
-Rings rings_of(const TriangleMesh& mesh) {
-  std::vector<std::array<std::uint32_t, 2>> directed;
-  directed.reserve(6 * mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles)
-    for (const auto& [u, v] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
-      directed.push_back({u, v});
-      directed.push_back({v, u});
-    }
-  std::sort(directed.begin(), directed.end());
+Rings rings_of(const TriangleMesh& mesh, const Threads& threads) {
+  const std::vector<Side> sides = sorted_sides(mesh.triangles, mesh.vertices.size(), threads);
   std::vector<std::uint8_t> open(mesh.vertices.size(), 0);
-  for (std::size_t i = 0; i < directed.size();) {
-    std::size_t j = i;
-    while (j < directed.size() && directed[j] == directed[i]) ++j;
-    if (j - i == 1) open[directed[i][0]] = 1; // an edge of one triangle appears once each way
-    i = j;
-  }
-  directed.erase(std::unique(directed.begin(), directed.end()), directed.end());
+  for_each_edge(sides, [&](std::span<const Side> edge) {
+    if (edge.size() == 1) open[edge[0].low] = open[edge[0].high] = 1;
+  });
   return build_rows<std::uint32_t>(mesh.vertices.size(), [&](auto&& visit) {
-    for (const auto& [u, v] : directed)
-      if (!open[u]) visit(u, v);
+    for_each_edge(sides, [&](std::span<const Side> edge) {
+      const auto [low, high, number, forward] = edge[0];
+      if (!open[low]) visit(low, high);
+      if (!open[high]) visit(high, low);
+    });
   });
 }
 
@@ -64,7 +57,7 @@ void part_equal_vertices(std::vector<Vec3>& vertices, const std::vector<Vec3>& b
 
 void smooth(TriangleMesh& mesh, Smoothing method, std::uint32_t steps, const Threads& threads) {
   if (steps == 0) return;
-  const Rings rings = rings_of(mesh);
+  const Rings rings = rings_of(mesh, threads);
   std::vector<Vec3> moved(mesh.vertices.size());
   const auto move_towards_centroids = [&](double factor) {
     for_each_index(threads, mesh.vertices.size(), [&](std::size_t v) {

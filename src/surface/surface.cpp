@@ -20,12 +20,6 @@ void require_surface(const Surface& surface) {
                 "check that the points surround a volume, give less --noise or off, or name an inside point");
 }
 
-/// What is no farther from the surface is explained by noise and spacing.
-double near_surface(const SampleModel& model, SampleIndex s) {
-  constexpr double near_in_sigmas = 3;
-  return near_in_sigmas * static_cast<double>(model.noise[s.value]) + static_cast<double>(model.spacing[s.value]);
-}
-
 /// A scrap is no success: of so many samples some must lie on the surface, or as near as noise and spacing explain.
 void require_samples_near(const Surface& surface, const Scene& scene, const Threads& threads) {
   constexpr double least_share = 0.05;
@@ -40,10 +34,10 @@ void require_samples_near(const Surface& surface, const Scene& scene, const Thre
         std::uint64_t count = 0;
         for (std::size_t s = begin; s < end; ++s)
           count += tree.nearest(t.positions.raw()[s]).distance <=
-                   near_surface(model, SampleIndex{static_cast<std::uint32_t>(s)});
+                   model.tolerance(SampleIndex{static_cast<std::uint32_t>(s)});
         return count;
       },
-      1024);
+      costly_block);
   if (near < needed)
     throw Error(ErrorKind::no_surface, "surface",
                 "only " + std::to_string(near) + " of " + std::to_string(t.sample_count) +
@@ -63,7 +57,7 @@ SamplesApart samples_apart(const Surface& surface, const Scene& scene, const Thr
     const auto star = scene.stars[s];
     return std::none_of(star.begin(), star.end(), [&](TetrahedronIndex i) {
       return std::any_of(t.tetrahedra[i].begin(), t.tetrahedra[i].end(), [&](SampleIndex n) {
-        return on_surface[n.value] && distance(t.positions[n], t.positions[s]) <= near_surface(model, s);
+        return on_surface[n.value] && distance(t.positions[n], t.positions[s]) <= model.tolerance(s);
       });
     });
   };

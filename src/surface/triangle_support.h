@@ -26,7 +26,7 @@ class TriangleSupport {
     double longest = 0, mean = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       longest = std::max(longest, distance(t_.positions[v[k]], t_.positions[v[(k + 1) % 3]]));
-      mean += scale(v[k]) / 3;
+      mean += scale(v[k]) / static_cast<double>(v.size());
     }
     const double contrast =
         outside.valid() ? std::fabs(static_cast<double>(labels_.value(outside) - labels_.value(inside))) : 0;

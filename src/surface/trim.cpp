@@ -26,11 +26,6 @@ std::array<Vec3, 3> corners(const TriangleMesh& mesh, std::size_t i) {
   return {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
 }
 
-double area(const TriangleMesh& mesh, std::size_t i) {
-  const auto [a, b, c] = corners(mesh, i);
-  return norm(cross(b - a, c - a)) / 2;
-}
-
 /// The lines of each sample, which stand together.
 std::span<const SightLine> lines_of(std::span<const SightLine> lines, SampleIndex sample) {
   const auto [begin, end] = std::equal_range(lines.begin(), lines.end(), SightLine{sample, 0, {}},
@@ -42,8 +37,7 @@ std::span<const SightLine> lines_of(std::span<const SightLine> lines, SampleInde
 /// that has any? Elsewhere a sharp edge belongs to scans from either side.
 bool is_seen(const Tetrahedralization& t, std::span<const SightLine> lines, bool one_sided, const Surface& surface,
              std::size_t i) {
-  const auto [a, b, c] = corners(surface.mesh, i);
-  const Vec3 normal = cross(b - a, c - a);
+  const Vec3 normal = area_vector(surface.mesh, i);
   const double size = norm(normal);
   const auto meets = [&](const SightLine& line) {
     const Vec3 way = line.target - t.positions[line.sample];
@@ -63,26 +57,22 @@ bool is_seen(const Tetrahedralization& t, std::span<const SightLine> lines, bool
 std::size_t mark_smaller_fans(const TriangleMesh& mesh, std::vector<std::uint8_t>& gone) {
   const auto& triangles = mesh.triangles;
   if (triangles.empty()) return 0;
-  DisjointSets fans(3 * triangles.size());
-  const std::vector<Side> sides = sorted_sides(triangles, mesh.vertices.size(), Threads(1));
-  for_each_edge(sides, [&](std::span<const Side> edge) {
-    if (edge.size() != 2) return;
-    fans.unite(edge[0].corner_at_low(), edge[1].corner_at_low());
-    fans.unite(edge[0].corner_at_high(), edge[1].corner_at_high());
+  const std::size_t corners = triangles.size() * triangles.front().size();
+  DisjointSets fans(corners);
+  for_each_edge(sorted_sides(triangles, mesh.vertices.size(), Threads(1)), [&](std::span<const Side> edge) {
+    if (edge.size() == 2) join_fans(fans, edge[0], edge[1]);
   });
-  std::vector<std::uint32_t> size(3 * triangles.size(), 0), largest(mesh.vertices.size(), SampleIndex::none);
-  for (std::uint32_t corner = 0; corner < size.size(); ++corner) ++size[fans.find(corner)];
-  for (std::uint32_t corner = 0; corner < size.size(); ++corner) {
-    if (size[corner] == 0) continue; // not the first of its fan
-    std::uint32_t& best = largest[triangles[corner / 3][corner % 3]];
-    if (best == SampleIndex::none || size[corner] > size[best]) best = corner;
-  }
+  std::vector<std::uint32_t> size(corners, 0), largest(mesh.vertices.size(), no_index);
+  for (std::uint32_t corner = 0; corner < corners; ++corner) ++size[fans.find(corner)];
+  for_each_corner(triangles, [&](std::uint32_t, std::uint32_t v, std::uint32_t corner) {
+    if (size[corner] > 0 && (largest[v] == no_index || size[corner] > size[largest[v]])) largest[v] = corner;
+  });
   std::size_t marked = 0;
-  for (std::uint32_t corner = 0; corner < size.size(); ++corner) {
-    if (fans.find(corner) == largest[triangles[corner / 3][corner % 3]] || gone[corner / 3]) continue;
-    gone[corner / 3] = 1;
+  for_each_corner(triangles, [&](std::uint32_t t, std::uint32_t v, std::uint32_t corner) {
+    if (fans.find(corner) == largest[v] || gone[t]) return;
+    gone[t] = 1;
     ++marked;
-  }
+  });
   return marked;
 }
 
@@ -110,7 +100,7 @@ std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& t, con
 double share_of_area(const Surface& surface, std::span<const std::uint8_t> marked) {
   double part = 0, whole = 0;
   for (std::size_t i = 0; i < marked.size(); ++i) {
-    const double a = area(surface.mesh, i);
+    const double a = norm(area_vector(surface.mesh, i)) / 2;
     whole += a;
     if (marked[i]) part += a;
   }

@@ -4,8 +4,12 @@
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Simple_cartesian.h>
 
+#include <limits>
+
 namespace eigencrust {
 namespace {
+
+const double half_the_digits = std::sqrt(std::numeric_limits<double>::epsilon());
 
 Vec3 exact_circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   using Exact = CGAL::Simple_cartesian<CGAL::Exact_rational>;
@@ -22,9 +26,9 @@ Vec3 circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double volume = dot(u, vw); // six times the signed volume
   // The rounding error of `volume` is a few ulp of |u||v||w|.
   // Negated, so that underflow and NaN also take the exact way.
-  if (!(std::fabs(volume) > 1e-10 * norm(u) * norm(v) * norm(w))) return exact_circumcentre(a, b, c, d);
+  if (!(std::fabs(volume) > half_the_digits * norm(u) * norm(v) * norm(w))) return exact_circumcentre(a, b, c, d);
   const Vec3 numerator = squared_norm(u) * vw + (squared_norm(v) * wu + squared_norm(w) * uv);
-  return a + (0.5 / volume) * numerator;
+  return a + (1 / (2 * volume)) * numerator;
 }
 
 } // namespace eigencrust

@@ -7,12 +7,15 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <memory>
+#include <random>
 
 #include <eigencrust/error.h>
 #include <eigencrust/stages.h>
 
 #include "geometry/predicates.h"
+#include "geometry/tetrahedron.h"
 #include "parallel/compressed_rows.h"
 
 namespace eigencrust {
@@ -24,18 +27,11 @@ using CellBase =
     CGAL::Triangulation_cell_base_with_info_3<std::uint32_t, Kernel, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
 using Delaunay = CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 
-constexpr std::uint32_t none = TetrahedronIndex::none;
 // "Much wider than the cloud" (§3): no sample may lie near a side.
 constexpr double cube_half_side_in_diagonals = 10;
 
-/// Random insertion rounds, each along the Hilbert curve (BRIO; Amenta, Choi, Rote 2003): the round of a
-/// sample is a hash of its number, later rounds being eight times larger.
-unsigned insertion_round(std::uint32_t i) {
-  std::uint64_t h = (i + 1) * 0x9e3779b97f4a7c15ull;
-  h = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ull;
-  return static_cast<unsigned>(std::countr_zero((h ^ (h >> 29)) | 1ull << 60)) / 3;
-}
-
+/// In random rounds, each four times as large as the one before and along the Hilbert curve (BRIO; Amenta, Choi, Rote
+/// 2003).
 void insert_all(Delaunay& delaunay, const IndexedArray<SampleIndex, Vec3>& positions, std::uint32_t samples) {
   Delaunay::Cell_handle hint;
   const auto insert = [&](std::uint32_t i) {
@@ -45,32 +41,22 @@ void insert_all(Delaunay& delaunay, const IndexedArray<SampleIndex, Vec3>& posit
     hint = v->cell();
   };
   for (std::uint32_t i = samples; i < positions.size(); ++i) insert(i);
-  std::vector<std::vector<std::uint32_t>> rounds(21);
-  for (std::uint32_t i = 0; i < samples; ++i) rounds[insertion_round(i)].push_back(i);
+  std::mt19937_64 random;
+  std::vector<std::vector<std::uint32_t>> rounds(1 + std::numeric_limits<std::uint64_t>::digits);
+  for (std::uint32_t i = 0; i < samples; ++i)
+    rounds[static_cast<std::size_t>(std::countr_zero(random())) / 2].push_back(i);
   for (std::size_t r = rounds.size(); r-- > 0;)
     for (const std::uint32_t i : rounds[r]) insert(i);
 }
 
 /// Which vertex goes where so that the smallest comes first and the second smallest second. Only even
 /// permutations are used, so the orientation stays; with it the form is unique.
-std::array<int, 4> canonical_order(const std::array<std::uint32_t, 4>& v) {
-  static constexpr std::array<std::array<int, 4>, 12> even{{{0, 1, 2, 3},
-                                                            {0, 2, 3, 1},
-                                                            {0, 3, 1, 2},
-                                                            {1, 0, 3, 2},
-                                                            {1, 2, 0, 3},
-                                                            {1, 3, 2, 0},
-                                                            {2, 0, 1, 3},
-                                                            {2, 1, 3, 0},
-                                                            {2, 3, 0, 1},
-                                                            {3, 0, 2, 1},
-                                                            {3, 1, 0, 2},
-                                                            {3, 2, 1, 0}}};
-  const auto smaller = [&](const std::array<int, 4>& p, const std::array<int, 4>& q) {
-    return std::pair(v[static_cast<std::size_t>(p[0])], v[static_cast<std::size_t>(p[1])]) <
-           std::pair(v[static_cast<std::size_t>(q[0])], v[static_cast<std::size_t>(q[1])]);
-  };
-  return *std::min_element(even.begin(), even.end(), smaller);
+std::array<std::size_t, 4> canonical_order(const std::array<std::uint32_t, 4>& v) {
+  const auto first = static_cast<std::size_t>(std::min_element(v.begin(), v.end()) - v.begin());
+  auto rest = face_opposite[first];
+  const auto smaller = [&](std::size_t a, std::size_t b) { return v[a] < v[b]; };
+  std::rotate(rest.begin(), std::min_element(rest.begin(), rest.end(), smaller), rest.end());
+  return {first, rest[0], rest[1], rest[2]};
 }
 
 /// Cells in the engine's order, in canonical form; cells beyond the hull have no number.
@@ -79,10 +65,10 @@ void copy_cells(Delaunay& delaunay, Tetrahedralization& result, const Threads& t
   cells.reserve(delaunay.tds().number_of_cells());
   for (auto c = delaunay.all_cells_begin(); c != delaunay.all_cells_end(); ++c) {
     if (delaunay.is_infinite(c)) {
-      c->info() = none;
+      c->info() = no_index;
       continue;
     }
-    if (cells.size() >= none - 1)
+    if (cells.size() >= no_index - 1)
       throw Error(ErrorKind::memory, "delaunay", "more than 4 billion tetrahedra", "split the cloud");
     c->info() = static_cast<std::uint32_t>(cells.size());
     cells.push_back(c);
@@ -94,11 +80,11 @@ void copy_cells(Delaunay& delaunay, Tetrahedralization& result, const Threads& t
   for_each_index(threads, cells.size(), [&](std::size_t i) {
     const Delaunay::Cell_handle c = cells[i];
     std::array<std::uint32_t, 4> v{};
-    for (int k = 0; k < 4; ++k) v[static_cast<std::size_t>(k)] = c->vertex(k)->info();
-    const std::array<int, 4> order = canonical_order(v);
+    for (std::size_t k = 0; k < 4; ++k) v[k] = c->vertex(static_cast<int>(k))->info();
+    const std::array<std::size_t, 4> order = canonical_order(v);
     for (std::size_t k = 0; k < 4; ++k) {
-      tetrahedra[i][k] = SampleIndex{v[static_cast<std::size_t>(order[k])]};
-      neighbours[i][k] = TetrahedronIndex{c->neighbor(order[k])->info()};
+      tetrahedra[i][k] = SampleIndex{v[order[k]]};
+      neighbours[i][k] = TetrahedronIndex{c->neighbor(static_cast<int>(order[k]))->info()};
     }
   });
 }
@@ -139,7 +125,7 @@ void sort_tetrahedra(Tetrahedralization& t, const Threads& threads) {
 
 Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const std::function<void()>& beside) {
   const int dimension = affine_dimension(samples.positions.raw());
-  if (dimension < 3)
+  if (dimension <= 2)
     throw Error(ErrorKind::input, "delaunay", dimension < 2 ? "all points are collinear" : "all points are coplanar",
                 "give points that surround a volume");
   Tetrahedralization result;

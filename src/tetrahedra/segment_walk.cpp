@@ -3,12 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "geometry/predicates.h"
+#include "geometry/tetrahedron.h"
 
 namespace eigencrust {
 namespace {
+
+// A determinant or a dot product of differences is off by so much of its terms at most: 45 units in the last place,
+// some times what there can be.
+constexpr double rounding = 1e-14;
 
 double largest(const Vec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 
@@ -32,16 +38,16 @@ SegmentWalk::Corner SegmentWalk::corner(SampleIndex sample) const {
 /// What only corners of faces that the segment leaves through need.
 void SegmentWalk::project(Corner& corner) const {
   corner.along = dot(corner.offset, direction_);
-  // Rounding of a dot product of differences: below 4 units in the last place of the sum of the products' sizes.
-  const double square = length_ * length_, error = 1e-14 * (3 * corner.size * size_ + square);
+  const double square = length_ * length_, error = rounding * (corner.size * size_ + square);
   corner.before = corner.along + error < square;
 }
 
 SegmentWalk::Turn SegmentWalk::turn(const Corner& p, const Corner& q) const {
   const double value = dot(cross(p.offset, q.offset), direction_);
-  // Six products of three rounded differences: each is off by less than 8 halves of a unit in the last place.
-  const double bound = 1e-14 * p.size * q.size * size_;
-  if (bound > 1e-280 && std::fabs(value) > bound) return {value, value > 0 ? 1 : -1};
+  const double bound = rounding * p.size * q.size * size_;
+  // Where products underflow the bound says nothing.
+  if (bound > std::sqrt(std::numeric_limits<double>::min()) && std::fabs(value) > bound)
+    return {value, value > 0 ? 1 : -1};
   return {value, orientation(start_, t_.positions[p.sample], t_.positions[q.sample], target_)};
 }
 
@@ -58,18 +64,17 @@ bool SegmentWalk::next() {
 }
 
 /// Is the direction within the cone of the tetrahedron at the sample? Sets face_ and edge_ on the way.
-/// \return the side through whose plane it leaves the cone, 4: none
-std::size_t SegmentWalk::side_out_of_cone(TetrahedronIndex tetrahedron, std::size_t at) {
-  // The other three vertices in such order that the sample and they are positively oriented.
-  static constexpr std::array<std::array<std::size_t, 3>, 4> others{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+/// \return the side through whose plane it leaves the cone
+std::optional<std::size_t> SegmentWalk::side_out_of_cone(TetrahedronIndex tetrahedron, std::size_t at) {
   const auto& v = t_.tetrahedra[tetrahedron];
-  for (std::size_t i = 0; i < 3; ++i) face_[i] = corner(v[others[at][i]]);
+  const auto& others = face_opposite[at];
+  for (std::size_t i = 0; i < 3; ++i) face_[i] = corner(v[others[i]]);
   for (std::size_t i = 0; i < 3; ++i) {
     const Corner &p = face_[(i + 1) % 3], &q = face_[(i + 2) % 3];
     edge_[i] = turn(p, q);
-    if (perturbed(edge_[i], p, q) <= 0) return others[at][i];
+    if (perturbed(edge_[i], p, q) <= 0) return others[i];
   }
-  return 4;
+  return std::nullopt;
 }
 
 /// The tetrahedron of the star whose cone holds the direction: from one of them across the sides that it lies beyond,
@@ -82,16 +87,15 @@ bool SegmentWalk::begin() {
     const auto& v = t_.tetrahedra[i];
     return static_cast<std::size_t>(std::find(v.begin(), v.end(), from_) - v.begin());
   };
-  std::size_t out = 0;
+  std::optional<std::size_t> out = 0;
   current_ = star.front();
   for (std::size_t steps = 0; steps < star.size() && current_.valid(); ++steps) {
     out = side_out_of_cone(current_, place_in(current_));
-    if (out == 4) break;
-    current_ = t_.neighbours[current_][out];
+    if (!out) break;
+    current_ = t_.neighbours[current_][*out];
   }
-  for (std::size_t i = 0; i < star.size() && out != 4; ++i)
-    out = side_out_of_cone(current_ = star[i], place_in(star[i]));
-  if (out != 4) return false;
+  for (std::size_t i = 0; i < star.size() && out; ++i) out = side_out_of_cone(current_ = star[i], place_in(star[i]));
+  if (out) return false;
   beyond_ = t_.neighbours[current_][place_in(current_)];
   for (Corner& c : face_) project(c);
   entry_ = 0;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include <eigencrust/types.h>
 
@@ -48,7 +49,7 @@ class SegmentWalk {
   [[nodiscard]] Turn turn(const Corner& p, const Corner& q) const;
   /// The sign after the infinitesimal turn; 0 only if the sample, p and q are collinear.
   [[nodiscard]] int perturbed(const Turn& turn, const Corner& p, const Corner& q) const;
-  std::size_t side_out_of_cone(TetrahedronIndex tetrahedron, std::size_t at);
+  std::optional<std::size_t> side_out_of_cone(TetrahedronIndex tetrahedron, std::size_t at);
   bool begin();
   bool step();
   [[nodiscard]] bool ends_before_face() const;

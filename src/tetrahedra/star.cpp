@@ -18,7 +18,7 @@ void Star::fill(SampleIndex sample) {
       others_[i][filled] = vertices[k];
       const auto at = std::lower_bound(tetrahedra_.begin(), tetrahedra_.end(), neighbours[k]);
       const bool found = neighbours[k].valid() && at != tetrahedra_.end() && *at == neighbours[k];
-      neighbours_[i][filled++] = found ? static_cast<std::uint32_t>(at - tetrahedra_.begin()) : none;
+      neighbours_[i][filled++] = found ? static_cast<std::uint32_t>(at - tetrahedra_.begin()) : no_index;
     }
   }
 }
@@ -28,10 +28,10 @@ std::uint32_t Star::components(const Labels& labels, Label label, SampleIndex ed
   const auto at_edge = [&](std::uint32_t i) {
     return !edge.valid() || std::find(others_[i].begin(), others_[i].end(), edge) != others_[i].end();
   };
-  component.assign(size(), none);
+  component.assign(size(), no_index);
   std::uint32_t count = 0;
   for (std::uint32_t start = 0; start < size(); ++start) {
-    if (component[start] != none || labels[tetrahedra_[start]] != label || !at_edge(start)) continue;
+    if (component[start] != no_index || labels[tetrahedra_[start]] != label || !at_edge(start)) continue;
     component[start] = count;
     stack_.assign(1, start);
     while (!stack_.empty()) {
@@ -40,7 +40,8 @@ std::uint32_t Star::components(const Labels& labels, Label label, SampleIndex ed
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t n = neighbours_[i][k];
         // The face towards neighbour k lacks vertex k: it holds the edge unless that is vertex k.
-        if (n == none || others_[i][k] == edge || component[n] != none || labels[tetrahedra_[n]] != label) continue;
+        if (n == no_index || others_[i][k] == edge || component[n] != no_index || labels[tetrahedra_[n]] != label)
+          continue;
         component[n] = count;
         stack_.push_back(n);
       }

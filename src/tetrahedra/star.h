@@ -12,7 +12,7 @@ namespace eigencrust {
 /// Tetrahedra are named by their place in the star, which follows their index.
 class Star {
  public:
-  static constexpr std::uint32_t none = 0xffffffffu;
+  static constexpr std::uint32_t none = no_index;
 
   Star(const Tetrahedralization& tetrahedralization, const VertexStars& stars)
       : t_(tetrahedralization), stars_(stars) {}
@@ -24,7 +24,7 @@ class Star {
   [[nodiscard]] const std::array<SampleIndex, 3>& others(std::uint32_t i) const { return others_[i]; }
   [[nodiscard]] const std::array<std::uint32_t, 3>& neighbours(std::uint32_t i) const { return neighbours_[i]; }
 
-  /// Numbers the face-connected sets of tetrahedra with equal `label`; component[i] is 0xffffffff for
+  /// Numbers the face-connected sets of tetrahedra with equal `label`; component[i] is no_index for
   /// other labels. With `edge` valid only tetrahedra at that edge count, joined across faces that hold
   /// it. \return how many sets
   std::uint32_t components(const Labels& labels, Label label, SampleIndex edge, std::vector<std::uint32_t>& component);

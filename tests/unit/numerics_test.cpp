@@ -142,8 +142,8 @@ TEST(Aggregation, IsolatedNodesEndHere) {
   EXPECT_EQ(a.count, 1u);
   EXPECT_EQ(a.aggregate[0], a.aggregate[1]);
   EXPECT_EQ(a.sign[0] * a.sign[1], -1);
-  EXPECT_EQ(a.aggregate[2], SignedMultigrid::none);
-  EXPECT_EQ(a.aggregate[3], SignedMultigrid::none);
+  EXPECT_EQ(a.aggregate[2], no_index);
+  EXPECT_EQ(a.aggregate[3], no_index);
 }
 
 TEST(Aggregation, OfAStarDoesNotStall) {

@@ -31,13 +31,27 @@ struct Answer {
   Classification classes;
   std::vector<Vec3> normals;
 };
-Answer ask(const Scene& scene, const std::vector<float>& grid_spacing = {}, unsigned threads = 1) {
+/// Even samples, none isolated; ℓ is 1.2 deviations.
+SampleModel even_model(const Scene& scene, const std::vector<float>& grid_spacing) {
+  SampleModel model;
+  model.spacing.assign(scene.t.sample_count, 1);
+  model.isolated.assign(scene.t.sample_count, 0);
+  model.noise.assign(scene.t.sample_count, 0);
+  for (std::size_t i = 0; i < grid_spacing.size(); ++i) model.noise[i] = grid_spacing[i] / 1.2f;
+  return model;
+}
+Answer ask(const Scene& scene, const SampleModel& model, const std::vector<float>& grid_spacing, unsigned threads = 1) {
   const Threads team(threads);
   Answer answer;
-  answer.classes = classify_samples(scene.t, scene.surface, grid_spacing, team);
+  answer.classes = classify_samples(scene.t, scene.surface, model, team);
   answer.normals = orient_samples(scene.t, scene.surface, answer.classes, grid_spacing, team).raw();
   return answer;
 }
+Answer ask(const Scene& scene, const std::vector<float>& grid_spacing = {}) {
+  return ask(scene, even_model(scene, grid_spacing), grid_spacing);
+}
+/// As the samples are.
+SampleModel measured(const Scene& scene) { return sample_model(scene.t.positions.raw(), 0.0, Threads(1)); }
 
 MATCHER_P(IsAbout, wanted, "") { return distance(arg, wanted) < 1e-9; }
 bool is_nan(const Vec3& v) { return std::isnan(v.x) && std::isnan(v.y) && std::isnan(v.z); }
@@ -47,8 +61,8 @@ constexpr std::uint32_t middle = 5 * 11 + 5;
 constexpr std::uint32_t grid_vertices = 11 * 11;
 
 TEST(Classify, DistanceToTheSurfaceInTolerances) {
-  // τ is 1.25 spacings: at 1 above, 1/(1 + 0.64); at 1.25 the limit; at 3, 1/(1 + 5.76).
-  const Answer answer = ask(scene_of(shapes::grid(10, 10), {{5.2, 5.3, 1}, {5.2, 5.3, -1.25}, {5.2, 5.3, 3}}));
+  // τ is a spacing: at 0.8 above, 1/(1 + 0.64); at 1 the limit; at 2.4, 1/(1 + 5.76).
+  const Answer answer = ask(scene_of(shapes::grid(10, 10), {{5.2, 5.3, 0.8}, {5.2, 5.3, -1}, {5.2, 5.3, 2.4}}));
   const auto& confidence = answer.classes.confidence.raw();
   EXPECT_FLOAT_EQ(confidence[middle], 1);
   EXPECT_NEAR(confidence[grid_vertices], 1 / 1.64, 1e-6);
@@ -83,7 +97,7 @@ TEST(Classify, ASpikeIsNoInlierAndItsNeighboursAre) {
 }
 
 TEST(Classify, AChangeOfSpacingIsNoSpike) {
-  // Columns at 0, 1, ... 5, then 8, 11, ...: the third shortest edge grows threefold, in the plane.
+  // Columns at 0, 1, ... 5, then 8, 11, ...: the middle of the neighbours lies aside, in the plane.
   TriangleMesh mesh = shapes::grid(10, 10);
   for (Vec3& p : mesh.vertices) p = {p.x > 5 ? 5 + 3 * (p.x - 5) : p.x, p.y > 5 ? 5 + 3 * (p.y - 5) : p.y, 0};
   const Answer answer = ask(scene_of(mesh, {}));
@@ -96,7 +110,8 @@ TEST(Classify, SurfaceMadeOfScatteredSamplesIsNone) {
   clouds::Random random(4);
   for (Vec3& p : shell.vertices) p = random.uniform(0.6, 1.6) * p;
   const TriangleMesh sphere = shapes::icosphere(5);
-  const Answer answer = ask(scene_of(shapes::joined(sphere, shell), {}));
+  const Scene scene = scene_of(shapes::joined(sphere, shell), {});
+  const Answer answer = ask(scene, measured(scene), {});
   std::size_t inliers = 0, of_shell = 0;
   for (std::uint32_t v = 0; v < answer.classes.inlier.size(); ++v)
     (v < sphere.vertices.size() ? inliers : of_shell) += answer.classes.inlier.raw()[v];
@@ -107,7 +122,8 @@ TEST(Classify, SurfaceMadeOfScatteredSamplesIsNone) {
 TEST(Classify, ASparseSmoothSurfaceIsKept) {
   // Twelve times as sparse, but round.
   const TriangleMesh dense = shapes::icosphere(5), sparse = shapes::icosphere(3, 3, {10, 0, 0});
-  EXPECT_THAT(ask(scene_of(shapes::joined(dense, sparse), {})).classes.inlier.raw(), testing::Each(1));
+  const Scene scene = scene_of(shapes::joined(dense, sparse), {});
+  EXPECT_THAT(ask(scene, measured(scene), {}).classes.inlier.raw(), testing::Each(1));
 }
 
 TEST(Classify, NoSurfaceNoInliers) {
@@ -128,7 +144,8 @@ TEST(Orient, SphereInsideOut) {
 
 TEST(Orient, CornerOfACubeLooksAlongTheDiagonal) {
   // Two triangles meet the corner in one face, one in another: angles make up for it, areas and counts do not.
-  const Answer answer = ask(scene_of(shapes::box({-1, -1, -1}, {1, 1, 1}), {}));
+  const Scene scene = scene_of(shapes::box({-1, -1, -1}, {1, 1, 1}), {});
+  const Answer answer = ask(scene, measured(scene), {});
   const double k = 1 / std::sqrt(3.0);
   EXPECT_THAT(answer.normals[0], IsAbout(Vec3{-k, -k, -k}));
   EXPECT_THAT(answer.normals[7], IsAbout(Vec3{k, k, k}));
@@ -165,7 +182,8 @@ TEST(Orient, NoiseIsAveragedOut) {
 TEST(Orient, EveryInlierHasAUnitNormalAndThreadsDoNotMatter) {
   const Scene scene = scene_of(shapes::torus(1, 0.4, 300, 120), clouds::random_box(500, 7, 1.4));
   const std::vector<float> grid(scene.t.sample_count, 0.01f);
-  const Answer one = ask(scene, grid, 1), three = ask(scene, grid, 3);
+  const SampleModel model = measured(scene);
+  const Answer one = ask(scene, model, grid, 1), three = ask(scene, model, grid, 3);
   EXPECT_EQ(one.classes.inlier.raw(), three.classes.inlier.raw());
   EXPECT_EQ(one.classes.confidence.raw(), three.classes.confidence.raw());
   for (std::size_t i = 0; i < one.normals.size(); ++i) {

@@ -189,15 +189,5 @@ TEST(SupportedComponents, PiecesOfIsolatedSamplesAreDropped) {
   }
 }
 
-TEST(SupportedComponents, PiecesWithinTheNoiseAreDropped) {
-  // The box of the small sphere has a diagonal of about 2 √3 = 3.46; fewer than five deviations are noise.
-  for (const auto& [sigma, count] : {std::pair(0.67f, 0u), std::pair(0.72f, 1u)}) {
-    TwoPieces pieces;
-    SampleModel model;
-    model.noise.assign(pieces.p.t.sample_count, sigma);
-    EXPECT_EQ(pieces.filter(model).size(), count) << sigma;
-  }
-}
-
 } // namespace
 } // namespace eigencrust
