@@ -19,6 +19,8 @@ constexpr double sample_price = 13;
 constexpr double most_passed = 0.04;
 // A piece more costs a fan of three faces that nothing bears out, and as much as a handle.
 constexpr double piece_price = 6;
+// What is left over by a move and has so few tetrahedra is no piece.
+constexpr std::size_t most_in_speck = 50;
 // Repairs of a move may turn so many times its own tetrahedra, and some; else it is no small change.
 constexpr std::uint64_t repairs_per_turned = 2, repairs_at_least = 64;
 
@@ -66,6 +68,7 @@ Moves::Moves(const MoveScene& s, TetrahedronLabels& labels)
       priced_(s.t, s.stars, s.energy, s.model.spacing, prices(s, labels.labels()), labels, s.threads),
       repair_(s.t, s.stars, s.energy.known, priced_),
       link_(s.t, s.stars, labels.labels()),
+      seen_(s.t.tetrahedra.size(), 0),
       owner_(s.t.positions.size(), SurfaceFronts::none) {}
 
 ManifoldCounts Moves::make_manifold(const Checkpoint& checkpoint) {
@@ -90,6 +93,7 @@ Moves::Outcome Moves::weigh(std::span<const TetrahedronIndex> region, double han
   const double before = priced_.cost();
   for (const TetrahedronIndex i : region) priced_.turn(i);
   const bool possible = repair_.run(samples_of(region), region, repairs_per_turned * region.size() + repairs_at_least);
+  if (possible) swallow_specks(priced_.turned_since(then));
   Outcome outcome{0, priced_.turned_since(then)};
   const auto& turned = outcome.turned;
   if (!possible || !std::all_of(turned.begin(), turned.end(), [&](TetrahedronIndex i) { return is_open(i); })) {
@@ -110,6 +114,32 @@ Moves::Outcome Moves::weigh(std::span<const TetrahedronIndex> region, double han
   if (handles > 0) return {};
   outcome.change += (piece_price + handle) * static_cast<double>(pieces) + handle * static_cast<double>(handles);
   return outcome;
+}
+
+/// Small sets of equal label beside what was turned that all else surrounds turn, too.
+void Moves::swallow_specks(const std::vector<TetrahedronIndex>& turned) {
+  std::vector<TetrahedronIndex> seen, speck;
+  for (const TetrahedronIndex beside : turned)
+    for (const TetrahedronIndex start : scene.t.neighbours[beside]) {
+      if (!start.valid() || seen_[start.value] || !is_open(start)) continue;
+      speck.assign(1, start);
+      seen_[start.value] = 1;
+      bool is_speck = true;
+      for (std::size_t k = 0; k < speck.size() && is_speck; ++k)
+        for (const TetrahedronIndex n : scene.t.neighbours[speck[k]]) {
+          if (!n.valid() || priced_[n] != priced_[start]) continue;
+          // What was seen before belongs to more than a speck, or is this one.
+          is_speck = is_speck && is_open(n) && (!seen_[n.value] || std::count(speck.begin(), speck.end(), n) > 0);
+          if (seen_[n.value] || !is_speck) continue;
+          seen_[n.value] = 1;
+          speck.push_back(n);
+          is_speck = speck.size() <= most_in_speck;
+        }
+      seen.insert(seen.end(), speck.begin(), speck.end());
+      if (!is_speck) continue;
+      for (const TetrahedronIndex i : speck) priced_.turn(i);
+    }
+  for (const TetrahedronIndex i : seen) seen_[i.value] = 0;
 }
 
 /// Turns back one at a time what need not be turned: where that costs less and leaves every star a disc.

@@ -60,6 +60,7 @@ class Moves {
   void settle_values();
 
  private:
+  void swallow_specks(const std::vector<TetrahedronIndex>& turned);
   void relax(const std::vector<TetrahedronIndex>& turned);
   bool turn_back(TetrahedronIndex i);
   std::int64_t pieces_at(const std::vector<std::uint32_t>& samples);
@@ -68,6 +69,7 @@ class Moves {
   PricedLabels priced_;
   StarRepair repair_;
   LinkCheck link_;
+  std::vector<std::uint8_t> seen_;   ///< tetrahedra, while specks are looked for
   std::vector<std::uint32_t> owner_; ///< while pieces are counted: which front reached the sample
 };
 

@@ -23,7 +23,8 @@ constexpr double least_support = 0.4;
 // Of its vertices: isolated samples are on no surface, and on the largest piece of scans full of outliers 0.01 at most.
 constexpr double most_isolated = 0.05;
 // Mean bend of a piece's edges, in radians (45°). Clumps have 48° to 65°, surfaces as noisy as the spacing 36° to 42°.
-constexpr double most_bent = std::numbers::pi / 4;
+// Pieces with isolated samples have to be smoother, 30°: those that a shell of outliers makes have 39° to 45°.
+constexpr double most_bent = std::numbers::pi / 4, most_bent_if_lonely = most_bent * 2 / 3;
 
 struct Piece {
   std::vector<std::uint32_t> triangles;
@@ -83,7 +84,7 @@ bool is_crumpled(const Surface& surface, const Piece& piece, std::vector<std::ui
     ++edges;
     bend += std::acos(std::clamp(dot(normal[edge[0].triangle()], normal[edge[1].triangle()]), -1.0, 1.0));
   });
-  return bend > most_bent * edges;
+  return bend > (piece.isolated > most_isolated ? most_bent_if_lonely : most_bent) * edges;
 }
 
 /// The largest piece always stays: a cloud of ten points still has a surface.
@@ -96,7 +97,7 @@ std::vector<std::uint8_t> supported(const Surface& surface, const std::vector<Pi
     const Piece& piece = pieces[order[k]];
     const double least = speck_vertices + speck_share * static_cast<double>(pieces[order[0]].vertices.size());
     kept[order[k]] = static_cast<double>(piece.vertices.size()) >= least && piece.support >= least_support &&
-                     piece.isolated <= most_isolated && !is_crumpled(surface, piece, number);
+                     !is_crumpled(surface, piece, number);
   }
   return kept;
 }

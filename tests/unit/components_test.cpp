@@ -33,7 +33,7 @@ struct ThreePieces {
     surface.support.assign(surface.mesh.triangles.size(), 1.0f);
   }
   std::vector<DroppedComponent> filter(const KeepComponents& keep) {
-    return filter_components(surface, keep, p.t, Threads(2));
+    return filter_components(surface, keep, p.t, {}, Threads(2));
   }
   [[nodiscard]] MeshSummary summary() const {
     return validate(surface.mesh, {.self_intersections = false, .merge_equal_vertices = false});
@@ -93,7 +93,7 @@ TEST(Components, SupportedKeepsTheLargestHoweverSmall) {
     if (p.t.touches_cube(TetrahedronIndex{i})) labels.raw()[i] = Label::outside;
   Surface surface = extract_surface(p.t, labels, Threads(2));
   surface.support.assign(surface.mesh.triangles.size(), 0.0f);
-  EXPECT_TRUE(filter_components(surface, {Kind::supported, 1}, p.t, Threads(2)).empty());
+  EXPECT_TRUE(filter_components(surface, {Kind::supported, 1}, p.t, {}, Threads(2)).empty());
   EXPECT_EQ(surface.mesh.vertices.size(), 5u);
 }
 
@@ -101,7 +101,7 @@ TEST(Components, OfNothingIsNothing) {
   const Prepared p = clouds::prepare(clouds::random_box(20, 1));
   for (const Kind kind : {Kind::supported, Kind::all, Kind::largest, Kind::count}) {
     Surface surface;
-    EXPECT_TRUE(filter_components(surface, {kind, 1}, p.t, Threads(2)).empty());
+    EXPECT_TRUE(filter_components(surface, {kind, 1}, p.t, {}, Threads(2)).empty());
   }
 }
 

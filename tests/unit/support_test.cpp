@@ -177,17 +177,5 @@ TEST(SupportedComponents, SupportIsTheMeanOverTheArea) {
   EXPECT_NEAR(dropped[0].support, supported / whole, 1e-9);
 }
 
-TEST(SupportedComponents, PiecesOfIsolatedSamplesAreDropped) {
-  for (const auto& [isolated, count] : {std::pair(3u, 0u), std::pair(6u, 1u)}) { // of 80
-    TwoPieces pieces;
-    SampleModel model;
-    model.isolated.assign(pieces.p.t.sample_count, 0.0f);
-    unsigned left = isolated;
-    for (std::uint32_t s = 0; s < pieces.p.t.sample_count && left > 0; ++s)
-      if (pieces.p.t.positions.raw()[s].x + pieces.p.t.origin.x < 50) model.isolated[s] = 1, --left;
-    EXPECT_EQ(pieces.filter(model).size(), count) << isolated;
-  }
-}
-
 } // namespace
 } // namespace eigencrust
