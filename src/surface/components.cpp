@@ -23,8 +23,9 @@ constexpr double least_support = 0.4;
 // Of its vertices: isolated samples are on no surface, and on the largest piece of scans full of outliers 0.01 at most.
 constexpr double most_isolated = 0.05;
 // Mean bend of a piece's edges, in radians (45°). Clumps have 48° to 65°, surfaces as noisy as the spacing 36° to 42°.
-// Pieces with isolated samples have to be smoother, 30°: those that a shell of outliers makes have 39° to 45°.
-constexpr double most_bent = std::numbers::pi / 4, most_bent_if_lonely = most_bent * 2 / 3;
+// Pieces with isolated samples have to be smoother, 36°: those that a shell of outliers makes have 38° to 45°, coarse
+// bodies beside fine ones 14° to 35°.
+constexpr double most_bent = std::numbers::pi / 4, most_bent_if_lonely = std::numbers::pi / 5;
 
 struct Piece {
   std::vector<std::uint32_t> triangles;

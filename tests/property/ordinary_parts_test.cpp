@@ -40,6 +40,22 @@ TEST(OrdinaryParts, TinyBodiesAreTheirHull) {
   EXPECT_NEAR(octahedron.volume, 4.0 / 3, 1e-9);
 }
 
+TEST(OrdinaryParts, AShellOfOutliersIsNoBodyAndACoarseBodyIsOne) {
+  const Points ball = clouds::sphere(20000);
+  for (const std::uint64_t seed : {1u, 2u}) {
+    Points shell;
+    for (const Vec3& p : clouds::random_box(9000, seed, 1.3))
+      if (norm(p) > 1.1 && norm(p) < 1.3) shell.push_back(p);
+    const MeshSummary mesh = mesh_of(clouds::joined(ball, shell));
+    EXPECT_EQ(mesh.components, 1u);
+    EXPECT_NEAR(mesh.volume, 4.19, 0.02);
+  }
+  // Three times as coarse: its samples are lonely, but it is smooth.
+  const MeshSummary both = mesh_of(clouds::joined(ball, clouds::moved(clouds::sphere(600, 0.5), {3, 0, 0})));
+  EXPECT_EQ(both.components, 2u);
+  EXPECT_NEAR(both.volume, 4.19 + 0.52, 0.03);
+}
+
 TEST(OrdinaryParts, WhatIsMissingIsTold) {
   const auto warnings = [](double wall) {
     const Points plate = clouds::lattice(31, 31, 2);
