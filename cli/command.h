@@ -45,13 +45,26 @@ struct InputOptions {
   std::vector<std::string> paths;
   std::string columns, scan_index, sensors, pcd_viewpoint = "auto";
   std::vector<std::string> sensor, sensor_direction; ///< one per input
+  std::vector<std::string> unit, scale;              ///< one per input, or one for all
+  std::string shift;
 };
 void add_input_options(CLI::App& app, InputOptions& options);
+/// Unit, scale and shift of the inputs. \throws Error{usage}
+void add_frame_options(CLI::App& app, InputOptions& options);
+double scale_of_input(const InputOptions& options, std::size_t input);
+Vec3 shift_of_inputs(const InputOptions& options);
+/// What was done to the coordinates, for the files that are written; empty: nothing but a shift.
+std::vector<std::string> frame_comments(const InputOptions& options);
+
+/// What the readers had to say.
+struct InputNotes {
+  std::vector<ReadNotes> files;      ///< one per input
+  std::vector<std::string> together; ///< what is odd about several inputs
+};
 /// Reads and merges; fills files with path, hash and count. Sensors that the options name take the place of
 /// those that the files hold.
-/// \param notes if given, gets what each file's reader had to say
-PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& files,
-                       std::vector<std::vector<std::string>>* notes = nullptr);
+/// \param notes gets what each file's reader had to say
+PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& files, InputNotes& notes);
 
 /// Progress on stderr. `mode` is auto, bar, jsonl or off; auto shows a bar on a terminal.
 std::unique_ptr<Observer> make_observer(const std::string& mode, const std::filesystem::path& dump_folder, bool quiet);
@@ -69,5 +82,7 @@ std::string describe(const MeshSummary& mesh);
 std::string grouped(std::uint64_t value);
 /// Three or four digits that matter.
 std::string rounded(double value);
+/// (x, y, z) with the digits that tell such a point from others `extent` away.
+std::string show_point(const Vec3& point, double extent);
 
 } // namespace eigencrust::cli

@@ -132,23 +132,27 @@ void add_input_options(CLI::App& app, InputOptions& options) {
       ->allow_extra_args(false);
   app.add_option("--sensors", options.sensors,
                  "File with a row scan,x,y,z for each scan, or scan,dx,dy,dz under a header; none: ignore all sensors");
+  add_frame_options(app, options);
 }
 
-PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& files,
-                       std::vector<std::vector<std::string>>* notes) {
+PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& files, InputNotes& notes) {
   const std::vector<Sensor> sensors = sensors_of_inputs(options);
   // What is replaced need not be looked for.
-  const ReadOptions read_options{split(options.columns), viewpoint_of(options.pcd_viewpoint),
-                                 sensors.empty() && options.sensors.empty()};
+  ReadOptions read_options{split(options.columns), viewpoint_of(options.pcd_viewpoint),
+                           sensors.empty() && options.sensors.empty()};
+  read_options.shift = shift_of_inputs(options);
+  for (std::size_t i = 0; i < options.paths.size(); ++i) scale_of_input(options, i); // refused before anything is read
   PointCloud cloud;
+  std::vector<Extent> extents;
   for (const std::string& path : options.paths) {
-    std::vector<std::string> said;
-    PointCloud next = read_point_cloud(path, read_options, &said);
-    if (notes != nullptr) notes->push_back(std::move(said));
+    notes.files.emplace_back();
+    read_options.scale = scale_of_input(options, files.size());
+    PointCloud next = read_point_cloud(path, read_options, &notes.files.back());
     if (!sensors.empty()) {
       next.sensors.assign(1, sensors[files.size()]);
       next.sensor_of.assign(next.points.size(), 0);
     }
+    if (options.paths.size() > 1) extents.push_back(extent_of(next.points));
     files.push_back({path, sha256_of_file(path), next.points.size(), {}, 0});
     if (files.size() == 1)
       cloud = std::move(next);
@@ -156,6 +160,7 @@ PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& file
       append_scan(cloud, std::move(next));
     if (interrupted()) throw Error(ErrorKind::cancelled, "reading", "cancelled", "start again to finish");
   }
+  notes.together = compare_extents(options.paths, extents);
   if (!options.scan_index.empty()) {
     if (options.paths.size() > 1)
       fail_usage("--scan-index goes with a single input", "leave it out: several inputs are several scans");
@@ -181,6 +186,16 @@ std::string rounded(double value) {
   std::array<char, 32> buffer{};
   std::snprintf(buffer.data(), buffer.size(), "%.4g", value);
   return buffer.data();
+}
+
+std::string show_point(const Vec3& point, double extent) {
+  const double largest = std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+  int digits = 4;
+  if (extent > 0 && largest > extent) digits += static_cast<int>(std::ceil(std::log10(largest / extent)));
+  std::array<char, 120> text{};
+  std::snprintf(text.data(), text.size(), "(%.*g, %.*g, %.*g)", std::min(digits, 17), point.x, std::min(digits, 17),
+                point.y, std::min(digits, 17), point.z);
+  return text.data();
 }
 
 std::string describe(const MeshSummary& mesh) {

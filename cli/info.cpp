@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include <eigencrust/memory_forecast.h>
 #include <eigencrust/stages.h>
@@ -36,8 +38,6 @@ const char* name_of(ScalarType type) {
   return "?";
 }
 
-using Notes = std::vector<std::vector<std::string>>;
-
 constexpr std::size_t most_sensors = 1000; ///< listed one by one
 
 void collect_sensors(const PointCloud& cloud, nlohmann::ordered_json& json) {
@@ -64,6 +64,13 @@ Json json_of(const Forecast& f) { return {{"memory_bytes", f.memory_bytes}, {"se
 
 Json json_of(const Box3& b) {
   return {{"min", {b.min.x, b.min.y, b.min.z}}, {"max", {b.max.x, b.max.y, b.max.z}}, {"diagonal", b.diagonal()}};
+}
+
+Json bounds_of(std::span<const Vec3> points) {
+  Box3 box;
+  for (const Vec3& p : points)
+    if (is_finite(p)) box.add(p);
+  return box.empty() ? Json() : json_of(box);
 }
 
 /// What can be said of points that no surface can be made of.
@@ -102,9 +109,10 @@ void collect_samples(const PointCloud& cloud, const Threads& threads, Json& json
   }
 }
 
-nlohmann::ordered_json collect(const PointCloud& cloud, const std::vector<InputFile>& files, const Notes& notes,
+nlohmann::ordered_json collect(const PointCloud& cloud, const std::vector<InputFile>& files, const InputNotes& notes,
                                const Threads& threads) {
   nlohmann::ordered_json json;
+  std::size_t first = 0; // row of the file
   for (std::size_t i = 0; i < files.size(); ++i) {
     // Columns are told of all files together; each has its part of them.
     const double share = static_cast<double>(files[i].points) / std::max(1.0, static_cast<double>(cloud.points.size()));
@@ -112,13 +120,21 @@ nlohmann::ordered_json collect(const PointCloud& cloud, const std::vector<InputF
     json["files"].push_back({{"path", files[i].path},
                              {"sha256", files[i].sha256},
                              {"points", files[i].points},
-                             {"notes", notes[i]},
+                             {"bounds", bounds_of({cloud.points.data() + first, files[i].points})},
+                             {"notes", notes.files[i].notes},
+                             {"warnings", notes.files[i].warnings},
                              {"forecast", json_of(forecast(files[i].points, further))}});
+    first += files[i].points;
   }
+  json["warnings"] = notes.together;
   json["points"] = cloud.points.size();
   std::uint32_t scans = cloud.points.empty() ? 0 : 1;
   for (const std::uint32_t scan : cloud.scan_index) scans = std::max(scans, scan + 1);
   json["scans"] = scans;
+  json["grids"] = nlohmann::ordered_json::array();
+  if (const auto grids = find_grids(cloud))
+    for (const ScanGrids::Size& size : grids->sizes)
+      json["grids"].push_back({{"columns", size.columns}, {"rows", size.rows}});
   collect_sensors(cloud, json);
   json["attributes"] = nlohmann::ordered_json::array();
   for (const Attribute& a : cloud.attributes)
@@ -129,9 +145,18 @@ nlohmann::ordered_json collect(const PointCloud& cloud, const std::vector<InputF
   return json;
 }
 
-std::string show(const nlohmann::ordered_json& v) {
-  return "(" + rounded(v[0].get<double>()) + ", " + rounded(v[1].get<double>()) + ", " + rounded(v[2].get<double>()) +
-         ")";
+/// "bounds (0, 0, 0) to (1, 1, 1), diagonal 1.732": with the digits that tell the ends apart.
+std::string show_bounds(const nlohmann::ordered_json& bounds) {
+  const auto vec = [](const nlohmann::ordered_json& v) {
+    return Vec3{v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
+  };
+  const Vec3 low = vec(bounds["min"]), high = vec(bounds["max"]);
+  double extent = std::numeric_limits<double>::infinity(); // of the shortest side that is one
+  for (const double side : {high.x - low.x, high.y - low.y, high.z - low.z})
+    if (side > 0) extent = std::min(extent, side);
+  if (!std::isfinite(extent)) extent = 0;
+  return "bounds " + show_point(low, extent) + " to " + show_point(high, extent) + ", diagonal " +
+         rounded(bounds["diagonal"].get<double>());
 }
 
 /// With the digits that tell places far from the origin apart.
@@ -162,13 +187,20 @@ void print_sensors(const nlohmann::ordered_json& j) {
   std::cout << "\n";
 }
 
+/// Equal grids are told once.
+void print_grids(const nlohmann::ordered_json& grids) {
+  for (std::size_t i = 0; i < grids.size(); ++i) {
+    const auto& g = grids[i];
+    if (g["rows"] == 0 || (i > 0 && g == grids[i - 1])) continue;
+    std::cout << "  grid of " << g["columns"] << " columns and " << g["rows"] << " rows\n";
+  }
+}
+
 void print_samples(const nlohmann::ordered_json& j) {
   std::cout << "  distinct " << grouped(j["distinct"].get<std::uint64_t>()) << ", duplicates "
             << grouped(j["duplicates"].get<std::uint64_t>()) << ", not finite "
             << grouped(j["nonfinite"].get<std::uint64_t>()) << ", scans " << j["scans"] << "\n";
-  if (!j["bounds"].is_null())
-    std::cout << "  bounds " << show(j["bounds"]["min"]) << " to " << show(j["bounds"]["max"]) << ", diagonal "
-              << rounded(j["bounds"]["diagonal"].get<double>()) << "\n";
+  if (!j["bounds"].is_null()) std::cout << "  " << show_bounds(j["bounds"]) << "\n";
   if (!j["unusable"].is_null()) {
     std::cout << "  no surface can be made of it: " << j["unusable"].get<std::string>() << "\n";
     return;
@@ -202,10 +234,14 @@ void print(const nlohmann::ordered_json& j) {
     std::cout << f["path"].get<std::string>() << ": " << grouped(f["points"].get<std::uint64_t>()) << " points";
     if (j["files"].size() > 1) std::cout << ", forecast " << show_forecast(f["forecast"]);
     std::cout << "\n";
+    if (j["files"].size() > 1 && !f["bounds"].is_null()) std::cout << "  " << show_bounds(f["bounds"]) << "\n";
     for (const auto& note : f["notes"]) std::cout << "  " << note.get<std::string>() << "\n";
+    for (const auto& warning : f["warnings"]) std::cout << "  warning: " << warning.get<std::string>() << "\n";
   }
+  for (const auto& warning : j["warnings"]) std::cout << "warning: " << warning.get<std::string>() << "\n";
   print_samples(j);
   print_forecast(j);
+  print_grids(j["grids"]);
   print_sensors(j);
   if (j["attributes"].empty()) return;
   std::cout << "  attributes";
@@ -227,8 +263,8 @@ int info_verb(const Arguments& arguments) {
   app.add_option("--threads", threads, "Threads, 0 for all cores")->capture_default_str();
   if (const Parsed parsed = parse(app, arguments); parsed.done) return parsed.status;
   std::vector<InputFile> files;
-  Notes notes;
-  const PointCloud cloud = read_inputs(input, files, &notes);
+  InputNotes notes;
+  const PointCloud cloud = read_inputs(input, files, notes);
   const Threads team(threads);
   const nlohmann::ordered_json figures = collect(cloud, files, notes, team);
   if (json)

@@ -158,7 +158,11 @@ MethodRun::MethodRun(const Request& request, const Arguments& arguments, OutputK
   check_outputs(request, kind);
   catch_interrupts();
   observer_ = make_observer(request.progress, request.dump_stages, request.quiet);
-  cloud = read_inputs(request.input, files_);
+  InputNotes notes;
+  cloud = read_inputs(request.input, files_, notes);
+  for (std::size_t i = 0; i < files_.size(); ++i)
+    for (const std::string& text : notes.files[i].warnings) warn_at_once(files_[i].path + ": " + text);
+  for (const std::string& text : notes.together) warn_at_once(text);
 }
 
 void MethodRun::warn_at_once(const std::string& text) {
@@ -179,7 +183,9 @@ void MethodRun::reconstruct(const Options& options) {
 
 WriteOptions MethodRun::write_options() const {
   throw_if_cancelled(*observer_, "writing");
-  return {.spacing = result.report.spacing, .comments = {std::string("made by eigencrust ") + version()}};
+  std::vector<std::string> comments = frame_comments(request_.input);
+  comments.insert(comments.begin(), std::string("made by eigencrust ") + version());
+  return {.spacing = result.report.spacing, .comments = std::move(comments), .shift = shift_of_inputs(request_.input)};
 }
 
 void MethodRun::finish(const WriteResult& written) {

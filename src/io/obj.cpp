@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "io/attributes.h"
+#include "io/colours.h"
 #include "io/formats.h"
 #include "io/polygons.h"
 #include "io/text_output.h"
@@ -130,9 +131,10 @@ TriangleMesh read_obj(const FileContent& file) { return ObjReader(file).read(); 
 Body prepare_obj(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result) {
   const bool as_float = options.coordinates == CoordinateType::float32;
   result.coordinates = as_float ? CoordinateType::float32 : CoordinateType::float64;
-  warn_lost_attributes(mesh.vertex_attributes, "vertices", 3, "OBJ", result.warnings);
-  warn_lost_attributes(mesh.triangle_attributes, "triangles", 0, "OBJ", result.warnings);
   const auto colours = find_colours(mesh.vertex_attributes);
+  warn_lost_attributes(mesh.vertex_attributes, "vertices", colours ? &*colours : nullptr, false, "OBJ",
+                       result.warnings);
+  warn_lost_attributes(mesh.triangle_attributes, "triangles", nullptr, false, "OBJ", result.warnings);
   return [&mesh, comments = options.comments, colours, as_float](std::ostream& out) {
     TextBuffer buffer(out);
     append_comments(buffer.text(), "# ", comments);
@@ -140,10 +142,10 @@ Body prepare_obj(const TriangleMesh& mesh, const WriteOptions& options, WriteRes
       buffer.text() += "v ";
       append_point(buffer.text(), mesh.vertices[i], ' ', as_float);
       if (colours) {
-        for (const Attribute* channel : colours->rgb) {
+        for (std::size_t k = 0; k < 3; ++k) {
           buffer.text() += ' ';
           // A float's own digits: as a double it would have eight more that mean nothing.
-          append_coordinate(buffer.text(), colour_fraction(*channel, i), channel->type == ScalarType::float32);
+          append_coordinate(buffer.text(), colours->fraction(k, i), colours->source[0]->type == ScalarType::float32);
         }
       }
       buffer.text() += '\n';

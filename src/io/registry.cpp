@@ -2,7 +2,9 @@
 // The only place that knows which extension, and which content, means which format.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <new>
+#include <optional>
 #include <stdexcept>
 
 #include <eigencrust/error.h>
@@ -10,9 +12,13 @@
 
 #include "io/attributes.h"
 #include "io/colmap.h"
+#include "io/column_names.h"
+#include "io/coordinate_checks.h"
 #include "io/formats.h"
 #include "io/sensor_columns.h"
+#include "io/table_plan.h"
 #include "io/text.h"
+#include "io/text_encoding.h"
 
 namespace eigencrust {
 namespace {
@@ -21,7 +27,7 @@ using io::Body;
 using io::FileContent;
 
 using Notes = std::vector<std::string>;
-using CloudReader = PointCloud (*)(const FileContent&, const ReadOptions&, Notes&);
+using CloudReader = PointCloud (*)(const FileContent&, const ReadOptions&, ReadNotes&);
 using MeshReader = TriangleMesh (*)(const FileContent&);
 using MeshWriter = Body (*)(const TriangleMesh&, const WriteOptions&, WriteResult&);
 using CloudWriter = Body (*)(const PointCloud&, const WriteOptions&, WriteResult&);
@@ -34,24 +40,27 @@ struct Format {
   CloudWriter write_cloud = nullptr;
 };
 
-PointCloud read_ply_points(const FileContent& file, const ReadOptions&, Notes&) { return io::read_ply_cloud(file); }
-PointCloud read_npy_points(const FileContent& file, const ReadOptions&, Notes&) { return io::read_npy(file); }
+PointCloud read_ply_points(const FileContent& file, const ReadOptions&, ReadNotes&) { return io::read_ply_cloud(file); }
+PointCloud read_npy_points(const FileContent& file, const ReadOptions&, ReadNotes&) { return io::read_npy(file); }
+PointCloud read_ptx_points(const FileContent& file, const ReadOptions&, ReadNotes& notes) {
+  return io::read_ptx(file, notes);
+}
+PointCloud read_pcd_points(const FileContent& file, const ReadOptions& options, ReadNotes& notes) {
+  return io::read_pcd(file, options, notes.notes);
+}
+PointCloud read_grid_points(const FileContent& file, const ReadOptions&, ReadNotes& notes) {
+  return io::read_esri_grid(file, notes);
+}
 
 /// Formats that can be read in one way only, but have something to say.
 template <PointCloud (*read)(const FileContent&, Notes&)>
-PointCloud read_noted(const FileContent& file, const ReadOptions&, Notes& notes) {
-  return read(file, notes);
-}
-
-/// Rows of text.
-template <PointCloud (*read)(const FileContent&, const ReadOptions&)>
-PointCloud read_rows(const FileContent& file, const ReadOptions& options, Notes&) {
-  return read(file, options);
+PointCloud read_noted(const FileContent& file, const ReadOptions&, ReadNotes& notes) {
+  return read(file, notes.notes);
 }
 
 /// The vertices of a mesh.
 template <MeshReader read>
-PointCloud read_vertices(const FileContent& file, const ReadOptions&, Notes&) {
+PointCloud read_vertices(const FileContent& file, const ReadOptions&, ReadNotes&) {
   TriangleMesh mesh = read(file);
   PointCloud cloud;
   cloud.points = std::move(mesh.vertices);
@@ -64,16 +73,18 @@ Body write_rows(const PointCloud& cloud, const WriteOptions& options, WriteResul
   return io::prepare_xyz(cloud, options, separator, result);
 }
 
+constexpr Format esri_grid = {"asc", read_grid_points}; ///< known by its first line alone
+
 constexpr std::array<Format, 16> formats = {{
     {"ply", read_ply_points, io::read_ply_mesh, io::prepare_ply, io::prepare_ply},
-    {"xyz", read_rows<io::read_xyz>, nullptr, nullptr, write_rows<' '>},
-    {"txt", read_rows<io::read_xyz>, nullptr, nullptr, write_rows<' '>},
-    {"asc", read_rows<io::read_xyz>, nullptr, nullptr, write_rows<' '>},
-    {"csv", read_rows<io::read_xyz>, nullptr, nullptr, write_rows<','>},
-    {"pts", read_rows<io::read_pts>},
+    {"xyz", io::read_xyz, nullptr, nullptr, write_rows<' '>},
+    {"txt", io::read_xyz, nullptr, nullptr, write_rows<' '>},
+    {"asc", io::read_xyz, nullptr, nullptr, write_rows<' '>},
+    {"csv", io::read_xyz, nullptr, nullptr, write_rows<','>},
+    {"pts", io::read_pts},
     {"e57", read_noted<io::read_e57>},
-    {"ptx", read_noted<io::read_ptx>},
-    {"pcd", io::read_pcd},
+    {"ptx", read_ptx_points},
+    {"pcd", read_pcd_points},
     {"las", read_noted<io::read_las>},
     {"laz", read_noted<io::read_las>}, // which says why it cannot
     {"npz", read_noted<io::read_npz>},
@@ -100,16 +111,13 @@ const Format* sniff_text(const FileContent& file) {
   io::Fields fields;
   while (lines.next_filled()) {
     const std::string_view line = lines.line();
-    if (line.starts_with('#') || line.starts_with("//")) continue;
+    if (io::comment_text(line)) continue;
     io::split_fields(line, fields);
     std::uint64_t count = 0;
     if (fields.size() == 1 && io::is_digit(line[0]) && io::parse(fields[0], count)) return find_format("pts");
     double number = 0;
     if (fields.size() >= 3 && io::parse(fields[0], number) && io::parse(fields[1], number)) return find_format("xyz");
-    std::string axes; // a header line with the names of the columns
-    for (const std::string_view field : fields)
-      if (field.size() == 1) axes += io::lower_case(field);
-    if (axes.starts_with("xyz")) return find_format("xyz");
+    if (io::find_axes(std::vector<std::string>(fields.begin(), fields.end()))) return find_format("xyz");
     for (const std::string_view keyword : {"v", "vn", "vt", "o", "g", "mtllib", "usemtl"})
       if (fields[0] == keyword) return find_format("obj");
     return nullptr;
@@ -131,6 +139,7 @@ const Format* sniff_signature(const FileContent& file) {
     if (word == keyword) return find_format("off");
   if (io::looks_like_pcd(file)) return find_format("pcd");
   if (io::looks_like_ptx(file)) return find_format("ptx");
+  if (io::looks_like_esri_grid(file)) return &esri_grid;
   return nullptr;
 }
 
@@ -150,6 +159,7 @@ const Format* sniff(const FileContent& file) {
 
 /// \param mesh_wanted only formats that hold triangles will do
 const Format& format_for_reading(const FileContent& file, bool mesh_wanted) {
+  io::reject_foreign(file);
   const Format* format = sniff_signature(file);
   if (format == nullptr) format = format_of(file.name());
   if (format == nullptr) format = sniff(file);
@@ -177,6 +187,24 @@ void add_colmap_sensors(const std::filesystem::path& path, PointCloud& cloud, No
                   " tell the camera that saw each point; of several the one nearest to their mean direction");
 }
 
+void append(Notes& notes, Notes more) { notes.insert(notes.end(), more.begin(), more.end()); }
+
+/// Scale and shift of the options.
+void change_frame(PointCloud& cloud, const ReadOptions& options) {
+  if (!(options.scale > 0) || !std::isfinite(options.scale) || !is_finite(options.shift))
+    throw Error(ErrorKind::usage, "reading", "scale or shift is no finite number, or the scale not above 0",
+                "give finite numbers");
+  if (options.scale == 1 && options.shift == Vec3{}) return;
+  // Millimetres divided by 1000 are rounded once, multiplied with 0.001 twice.
+  const double inverse = std::round(1 / options.scale);
+  const bool divides = options.scale < 1 && 1 / inverse == options.scale;
+  const auto scaled = [&](double v) { return divides ? v / inverse : v * options.scale; };
+  const auto moved = [&](const Vec3& p) { return Vec3{scaled(p.x), scaled(p.y), scaled(p.z)} + options.shift; };
+  for (Vec3& p : cloud.points) p = moved(p);
+  for (Sensor& s : cloud.sensors)
+    if (!s.at_infinity) s.place = moved(s.place);
+}
+
 [[noreturn]] void fail_memory(const std::filesystem::path& path) {
   throw Error(ErrorKind::memory, path.string(), "not enough memory for the file",
               "free memory or split the file into parts");
@@ -199,6 +227,51 @@ bool columns_tell_sensors(const PointCloud& cloud) {
   return true;
 }
 
+std::string three_numbers(const Vec3& v) {
+  std::string text;
+  for (const double value : {v.x, v.y, v.z}) {
+    text += text.empty() ? "" : " ";
+    io::append_number(text, value == 0 ? 0.0 : value); // no -0
+  }
+  return text;
+}
+
+/// The shift as one more comment.
+WriteOptions with_shift(WriteOptions options) {
+  if (options.shift != Vec3{}) options.comments.push_back("shift " + three_numbers(options.shift));
+  return options;
+}
+
+constexpr std::string_view offset_mark = "# eigencrust: add these numbers to the coordinates of ";
+
+/// A file of offsets that an earlier run left beside an older file of that name: it would lead astray.
+void remove_stale_offset(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return;
+  if (FileContent(file).bytes().starts_with(offset_mark)) std::filesystem::remove(file, ignored);
+}
+
+/// Writes the file and, where it has no room for what leads back to the input's coordinates, NAME.offset.txt. Either
+/// both are there in the end or neither is new.
+void write_with_offset(const std::filesystem::path& path, const Body& body, const Vec3& offset, bool is_told) {
+  const std::filesystem::path beside = path.string() + ".offset.txt";
+  if (is_told || offset == Vec3{}) {
+    write_file_atomically(path, body);
+    remove_stale_offset(beside);
+    return;
+  }
+  write_file_atomically(beside, [&](std::ostream& out) {
+    out << offset_mark << path.filename().string() << " to return to those of the input\n"
+        << three_numbers(offset) << "\n";
+  });
+  try {
+    write_file_atomically(path, body);
+  } catch (...) {
+    remove_stale_offset(beside);
+    throw;
+  }
+}
+
 void check_mesh(const TriangleMesh& mesh) {
   io::check_attributes(mesh.vertex_attributes, mesh.vertices.size(), "vertex row");
   io::check_attributes(mesh.triangle_attributes, mesh.triangles.size(), "triangle");
@@ -212,15 +285,20 @@ void check_mesh(const TriangleMesh& mesh) {
 
 } // namespace
 
-PointCloud io::read_cloud(const FileContent& file, const ReadOptions& options, Notes& notes) {
+PointCloud io::read_cloud(const FileContent& original, const ReadOptions& options, ReadNotes& notes) {
+  const std::optional<std::string> text = decode_utf16(original.bytes());
+  const FileContent decoded(original.name(), text ? std::string_view(*text) : std::string_view());
+  const FileContent& file = text ? decoded : original;
   PointCloud cloud = format_for_reading(file, false).read_cloud(file, options, notes);
+  append(notes.warnings, drop_no_data(cloud));
+  append(notes.warnings, doubt_coordinates(cloud.points));
   if (!options.sensors) {
     cloud.sensors.clear();
     cloud.sensor_of.clear();
   } else if (cloud.sensors.empty()) {
     if (const auto columns = find_sensor_columns(cloud)) {
       set_sensor_rows(cloud, columns->places);
-      notes.push_back(columns->names + " read as the sensor's position of each point");
+      notes.notes.push_back(columns->names + " read as the sensor's position of each point");
     }
   }
   return cloud;
@@ -228,12 +306,13 @@ PointCloud io::read_cloud(const FileContent& file, const ReadOptions& options, N
 
 TriangleMesh io::read_mesh(const FileContent& file) { return format_for_reading(file, true).read_mesh(file); }
 
-PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options, Notes* notes) {
+PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options, ReadNotes* notes) {
   try {
-    Notes unused;
-    Notes& said = notes == nullptr ? unused : *notes;
+    ReadNotes unused;
+    ReadNotes& said = notes == nullptr ? unused : *notes;
     PointCloud cloud = io::read_cloud(FileContent(path), options, said);
-    if (options.sensors && cloud.sensors.empty()) add_colmap_sensors(path, cloud, said);
+    if (options.sensors && cloud.sensors.empty()) add_colmap_sensors(path, cloud, said.notes);
+    change_frame(cloud, options);
     return cloud;
   } catch (const std::bad_alloc&) {
     fail_memory(path);
@@ -257,8 +336,10 @@ WriteResult write_mesh(const std::filesystem::path& path, const TriangleMesh& me
   if (format == nullptr || format->write_mesh == nullptr) fail_extension(path, true);
   check_mesh(mesh);
   WriteResult result;
-  const Body body = format->write_mesh(mesh, options, result);
-  write_file_atomically(path, body);
+  const WriteOptions commented = with_shift(options);
+  const Body body = format->write_mesh(mesh, commented, result);
+  const bool has_comments = format->extension != "stl";
+  write_with_offset(path, body, result.offset - options.shift, has_comments && result.offset == Vec3{});
   return result;
 }
 
@@ -267,11 +348,13 @@ WriteResult write_point_cloud(const std::filesystem::path& path, const PointClou
   if (format == nullptr || format->write_cloud == nullptr) fail_extension(path, false);
   io::check_attributes(cloud.attributes, cloud.points.size(), "point");
   WriteResult result;
-  const Body body = format->write_cloud(cloud, options, result);
+  const WriteOptions commented = with_shift(options);
+  const Body body = format->write_cloud(cloud, commented, result);
   if (!cloud.scan_index.empty()) result.warnings.emplace_back("the scan numbers of the points are not written");
   if (!cloud.sensors.empty() && !columns_tell_sensors(cloud))
     result.warnings.emplace_back("the sensors of the points are not written");
-  write_file_atomically(path, body);
+  const bool has_comments = format->extension != "csv";
+  write_with_offset(path, body, Vec3{} - options.shift, has_comments);
   return result;
 }
 
