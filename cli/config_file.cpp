@@ -171,6 +171,12 @@ std::string option_of(const Entry& entry) {
   return "--" + name;
 }
 
+const Option* first_positional(const OptionTable& table) {
+  for (const auto& option : table.options())
+    if (option->is_positional()) return option.get();
+  return nullptr;
+}
+
 /// The words that say the same.
 void append_words(const OptionTable& table, const Entry& entry, const std::string& path,
                   std::vector<std::string>& words) {
@@ -210,10 +216,12 @@ std::vector<std::string> with_config(const OptionTable& table, const std::vector
   for (const std::string& path : paths)
     for (const Entry& entry : read_config(path)) {
       if (!entry.verb.empty() && entry.verb != verb) continue;
-      const Option* option = table.find(entry.key == "input" ? "INPUT" : option_of(entry));
+      const Option* option = entry.key == "input" ? first_positional(table) : table.find(option_of(entry));
       // One file may serve several verbs, each of which takes what it knows.
-      if (option == nullptr && entry.verb.empty() && !verb_that_knows(option_of(entry)).empty()) continue;
-      if (option == nullptr || !is_given(option)) append_words(table, entry, path, from_files);
+      if (option == nullptr && entry.verb.empty() && entry.key != "input" && !verb_that_knows(option_of(entry)).empty())
+        continue;
+      if (option == nullptr || option->chapter() == help_chapter || !is_given(option))
+        append_words(table, entry, path, from_files);
     }
   result = from_files;
   bool only_files = false;

@@ -20,6 +20,18 @@ Attribute column(std::string name, ScalarType type, std::vector<double> values) 
   return make_attribute(std::move(name), type, values);
 }
 
+WriteOptions with_spacing(double spacing) {
+  WriteOptions options;
+  options.spacing = spacing;
+  return options;
+}
+
+WriteOptions as_format(const std::string& format) {
+  WriteOptions options;
+  options.format = format;
+  return options;
+}
+
 /// Four points far from the origin, a column of every type.
 PointCloud some_cloud() {
   PointCloud cloud;
@@ -27,7 +39,7 @@ PointCloud some_cloud() {
   int number = 0;
   for (const ScalarType type : {ScalarType::int8, ScalarType::uint8, ScalarType::int16, ScalarType::uint16,
                                 ScalarType::int32, ScalarType::uint32, ScalarType::float32, ScalarType::float64})
-    cloud.attributes.push_back(column("a" + std::to_string(number++), type, {-1e12, 1e12, 0.1, 1}));
+    cloud.attributes.push_back(column(std::string("a") + std::to_string(number++), type, {-1e12, 1e12, 0.1, 1}));
   return cloud;
 }
 
@@ -47,7 +59,7 @@ TEST(WriteClouds, PcdAndLasKeepEveryTypeAndPlace) {
   const TempDir folder;
   const PointCloud cloud = some_cloud();
   for (const char* name : {"a.pcd", "a.las"}) {
-    const WriteResult result = write_point_cloud(folder / name, cloud, {.spacing = 1});
+    const WriteResult result = write_point_cloud(folder / name, cloud, with_spacing(1));
     EXPECT_THAT(result.warnings, IsEmpty()) << name;
     const PointCloud back = read_point_cloud(folder / name);
     ASSERT_EQ(back.points.size(), 4u) << name;
@@ -115,7 +127,7 @@ TEST(WriteClouds, LasLeavesOutWhatIsNotFiniteAndReachesFar) {
   const TempDir folder;
   PointCloud cloud;
   cloud.points = {{0, 0, 0}, {std::numeric_limits<double>::infinity(), 0, 0}, {1e7, 0, 1e-4}};
-  const WriteResult result = write_point_cloud(folder / "a.las", cloud, {.spacing = 1e-3});
+  const WriteResult result = write_point_cloud(folder / "a.las", cloud, with_spacing(1e-3));
   EXPECT_THAT(result.warnings, testing::Contains(HasSubstr("not finite: 1 row left out")));
   EXPECT_THAT(result.warnings, testing::Contains(HasSubstr("LAS rounds the coordinates to")));
   const PointCloud back = read_point_cloud(folder / "a.las");
@@ -127,8 +139,8 @@ TEST(WriteClouds, LasLeavesOutWhatIsNotFiniteAndReachesFar) {
 TEST(WriteClouds, TheSameBytesEachTime) {
   const TempDir folder;
   for (const char* format : {"pcd", "las", "obj"}) {
-    write_point_cloud(folder / "a", some_cloud(), {.format = format});
-    write_point_cloud(folder / "b", some_cloud(), {.format = format});
+    write_point_cloud(folder / "a", some_cloud(), as_format(format));
+    write_point_cloud(folder / "b", some_cloud(), as_format(format));
     EXPECT_EQ(read_bytes(folder / "a"), read_bytes(folder / "b")) << format;
   }
 }
