@@ -30,9 +30,10 @@ std::vector<double> reaches(const std::vector<Vec3>& points) {
   return result;
 }
 
-double longest_side(const Box3& box) {
-  const Vec3 size = box.max - box.min;
-  return std::max({size.x, size.y, size.z});
+/// Does every side of the whole box have nearly its length without what lies apart?
+bool hardly_shrinks(const Box3& all, const Box3& bulk) {
+  const Vec3 whole = all.max - all.min, rest = bulk.max - bulk.min;
+  return rest.x >= hardly * whole.x && rest.y >= hardly * whole.y && rest.z >= hardly * whole.z;
 }
 
 } // namespace
@@ -54,7 +55,7 @@ std::vector<Vec3> bulk_of(std::vector<Vec3> points) {
     ++kept;
   }
   // Half of the points are no bulk where the median itself is of points that coincide.
-  if (2 * kept < some.size() || longest_side(bulk) >= hardly * longest_side(all)) return points;
+  if (2 * kept < some.size() || hardly_shrinks(all, bulk)) return points;
   // What lies between the points that were looked at belongs to them.
   const double margin = *middle;
   bulk = {bulk.min - Vec3{margin, margin, margin}, bulk.max + Vec3{margin, margin, margin}};
