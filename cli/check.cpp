@@ -9,8 +9,8 @@ int check_verb(const Arguments& arguments) {
   std::string path;
   bool json = false, no_intersections = false;
   unsigned threads = 0;
-  CLI::App app("Is a mesh closed, manifold and oriented? Vertices with equal coordinates count as one.",
-               "eigencrust check");
+  OptionTable app("Is a mesh closed, manifold and oriented? Vertices with equal coordinates count as one.",
+                  "eigencrust check");
   app.add_option("MESH", path, "Mesh to look at (ply obj off stl)")->required();
   app.add_flag("--json", json, "Print the figures as JSON");
   app.add_flag("--no-self-intersections", no_intersections, "Skip the dearest of the checks");

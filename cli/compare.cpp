@@ -40,8 +40,8 @@ int compare_verb(const Arguments& arguments) {
   std::string mesh_path, reference_path;
   bool json = false;
   CompareOptions options;
-  CLI::App app("How far a mesh is from a reference: distances between points spread over both surfaces.",
-               "eigencrust compare");
+  OptionTable app("How far a mesh is from a reference: distances between points spread over both surfaces.",
+                  "eigencrust compare");
   app.add_option("MESH", mesh_path, "Mesh to judge (ply obj off stl)")->required();
   app.add_option("REFERENCE", reference_path, "Mesh taken for the truth")->required();
   app.add_option("--samples", options.samples, "Points on each surface")->capture_default_str();

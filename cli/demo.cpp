@@ -28,8 +28,10 @@ fs::path bundled_scan() {
 
 int demo_verb(const Arguments& arguments) {
   std::string folder = "eigencrust-demo";
-  CLI::App app("Reconstructs the bundled teapot scan: mesh, report and a picture of both.", "eigencrust demo");
-  app.add_option("-o,--output", folder, "Folder for teapot.ply, teapot.json and teapot.png")->capture_default_str();
+  OptionTable app("Reconstructs the bundled teapot scan: mesh, report and a picture of both.", "eigencrust demo");
+  app.add_option("-o,--output", folder, "Folder for teapot.ply, teapot.json and teapot.png")
+      ->type_name("DIR")
+      ->capture_default_str();
   if (const Parsed parsed = parse(app, arguments); parsed.done) return parsed.status;
   const std::string scan = bundled_scan().string();
   std::error_code error;
@@ -49,7 +51,7 @@ int demo_verb(const Arguments& arguments) {
     std::vector<std::string> command{"eigencrust"};
     command.insert(command.end(), words.begin(), words.end());
     const bool named = words.front() == "check" || words.front() == "render";
-    return verb({{words.begin() + (named ? 1 : 0), words.end()}, command});
+    return verb({{words.begin() + (named ? 1 : 0), words.end()}, command, {}});
   };
   const int status = call(reconstruct_verb, {scan, "-o", mesh, "--report", report});
   if (status != 0) return status;

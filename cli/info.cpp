@@ -221,16 +221,16 @@ int info_verb(const Arguments& arguments) {
   InputOptions input;
   bool json = false;
   unsigned threads = 0;
-  CLI::App app("What is in a point cloud.", "eigencrust info");
+  OptionTable app("What is in a point cloud.", "eigencrust info");
   add_input_options(app, input);
+  app.begin_chapter("Running");
   app.add_flag("--json", json, "Print the figures as JSON");
   app.add_option("--threads", threads, "Threads, 0 for all cores")->capture_default_str();
   if (const Parsed parsed = parse(app, arguments); parsed.done) return parsed.status;
-  std::vector<InputFile> files;
-  Notes notes;
-  const PointCloud cloud = read_inputs(input, files, &notes);
+  ReadReport read;
+  const PointCloud cloud = read_inputs(input, read);
   const Threads team(threads);
-  const nlohmann::ordered_json figures = collect(cloud, files, notes, team);
+  const nlohmann::ordered_json figures = collect(cloud, read.files, read.notes, team);
   if (json)
     std::cout << figures.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
   else

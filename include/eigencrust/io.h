@@ -79,6 +79,7 @@ struct WriteOptions {
   CoordinateType coordinates = CoordinateType::automatic;
   double spacing = 0;                ///< median sample spacing; 0: the median edge length is taken
   std::vector<std::string> comments; ///< written where the format has room for them
+  std::string format{};              ///< "ply", "obj" ...; empty: that of the name's extension
 };
 
 struct WriteResult {
@@ -98,13 +99,18 @@ struct WriteResult {
 ///         vertices equal even with an offset.
 WriteResult write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options = {});
 
-/// Writes a cloud with its attributes (ply, xyz/txt/asc/csv), atomically as above.
+/// Writes a cloud with its attributes (ply, pcd, las, xyz/txt/asc/csv, obj), atomically as above. PCD is binary
+/// (version 0.7); LAS 1.4 has what it has no field for as extra bytes; OBJ keeps places, colours and normals only.
 WriteResult write_point_cloud(const std::filesystem::path& path, const PointCloud& cloud,
                               const WriteOptions& options = {});
 
-/// Is there a writer for this extension? For refusing a name before the work starts.
-bool can_write_mesh(const std::filesystem::path& path);
-bool can_write_point_cloud(const std::filesystem::path& path);
+/// Is there a writer for this extension, or this format if one is given? For refusing a name before the work starts.
+bool can_write_mesh(const std::filesystem::path& path, const std::string& format = {});
+bool can_write_point_cloud(const std::filesystem::path& path, const std::string& format = {});
+
+/// Finds out now what write_file_atomically would find out in the end: is there a folder in which a file can be made,
+/// with room for it? Leaves nothing behind. \throws Error{input}
+void require_writable(const std::filesystem::path& path);
 
 /// Writes any file atomically: `write` fills the stream of a temporary file in the same folder.
 /// \throws Error{input} when it cannot be created, written or renamed; whatever `write` throws.

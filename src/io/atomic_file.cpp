@@ -13,6 +13,8 @@
 #include <eigencrust/error.h>
 #include <eigencrust/io.h>
 
+#include "io/link_target.h"
+
 namespace eigencrust {
 namespace {
 
@@ -108,17 +110,6 @@ class OutputFile {
   bool temporary_;
 };
 
-/// The file that symbolic links lead to; it need not exist.
-fs::path follow_links(fs::path path) {
-  for (int steps = 0; steps < 40; ++steps) {
-    std::error_code error;
-    const fs::path next = fs::read_symlink(path, error);
-    if (error) return path;
-    path = next.is_absolute() ? next : path.parent_path() / next;
-  }
-  return path;
-}
-
 /// Devices, pipes and what stands for a descriptor of the process cannot be replaced by another file.
 bool is_special(const fs::path& path, const struct stat& status) {
   const std::string name = path.string();
@@ -150,7 +141,11 @@ OutputFile create_beside(const fs::path& target, int mode) {
 }
 
 void write_through(const fs::path& path, const std::function<void(std::ostream&)>& write) {
-  const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  // Standard output is written where it stands: opened anew, a file behind it would be written from its beginning, and
+  // a socket not at all.
+  const bool is_output = path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
+  const int descriptor =
+      is_output ? fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0) : open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (descriptor < 0) fail(path, "cannot open the file for writing", errno, "check the permissions");
   OutputFile(path, descriptor, false).fill(write, path);
 }
@@ -176,7 +171,7 @@ void write_file_atomically(const std::filesystem::path& path, const std::functio
     if (is_special(path, status)) return write_through(path, write);
     mode = static_cast<int>(status.st_mode);
   }
-  const fs::path target = follow_links(path);
+  const fs::path target = io::follow_links(path);
   OutputFile file = create_beside(target, mode);
   file.fill(write, path);
   file.rename_to(target);

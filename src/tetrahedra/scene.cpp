@@ -3,6 +3,8 @@
 
 #include <chrono>
 
+#include "tetrahedra/delaunay.h"
+
 namespace eigencrust {
 namespace {
 
@@ -17,14 +19,16 @@ void triangulate_and_measure(const PointCloud& cloud, Samples samples, const Con
   SampleMeasures& measures = scene.measures;
   if (threads.size() == 1) {
     run.stage("sample_model", [&] { measures = measure(cloud, samples, options, threads); });
-    scene.tetrahedralization = run.stage("delaunay", [&] { return tetrahedralize(std::move(samples), threads); });
+    scene.tetrahedralization =
+        run.stage("delaunay", [&] { return tetrahedralize(std::move(samples), threads, {}, run.checkpoint()); });
     return;
   }
   double seconds = 0;
   scene.tetrahedralization = run.stage("delaunay", [&] {
     Samples copy = samples;
-    return tetrahedralize(std::move(copy), threads,
-                          [&] { seconds = seconds_of([&] { measures = measure(cloud, samples, options, threads); }); });
+    return tetrahedralize(
+        std::move(copy), threads,
+        [&] { seconds = seconds_of([&] { measures = measure(cloud, samples, options, threads); }); }, run.checkpoint());
   });
   run.add("sample_model", seconds);
 }

@@ -1,17 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash disable=SC2154
-# docs/parameters.md and --help name the same options and defaults.
+# docs/parameters.md and --help-all name the same options and defaults.
 
-# options VERB: `--name|default|default of the preset paper` per line; empty where --help gives none. Defaults
-# stand behind `=`, or as [robust] or [robust; paper: other] at the end.
+# options VERB: `--name|default|default of the preset paper` per line; empty where --help-all gives none. Defaults
+# stand at the end as [robust] or [robust; paper: other].
 options() {
-  "$program" "$1" --help | awk '
+  "$program" "$1" --help-all | awk '
     function flush() { if (name != "") print name "|" standard "|" paper; name = standard = paper = "" }
     /^  -/ {
       flush()
       match($0, /--[a-z][a-z-]*/)
       name = substr($0, RSTART, RLENGTH)
-      if (match($0, /=[^ ]+( |$)/)) { standard = substr($0, RSTART + 1, RLENGTH - 1); sub(/ $/, "", standard) }
     }
     match($0, /\[[^\]]*\]$/) {
       standard = paper = substr($0, RSTART + 1, RLENGTH - 2)
@@ -28,7 +27,7 @@ rows() {
 test_every_option_is_in_the_docs() {
   local page=$repository/docs/parameters.md name standard paper row found
   [ -f "$page" ] || skip "docs/parameters.md is not here"
-  { options reconstruct; options orient; options classify; } | grep -v '^--help' | sort -u >options
+  { options reconstruct; options orient; options outliers; } | grep -v '^--help' | sort -u >options
   rows "$page" >rows
   [ "$(wc -l <options)" -ge 15 ] || die "only $(wc -l <options) options in --help"
   while IFS='|' read -r name standard paper; do
@@ -44,7 +43,9 @@ test_every_option_is_in_the_docs() {
 test_every_option_of_the_docs_exists() {
   local page=$repository/docs/parameters.md name verb
   [ -f "$page" ] || skip "docs/parameters.md is not here"
-  for verb in reconstruct orient classify info check compare render demo; do "$program" "$verb" --help; done >help
+  for verb in reconstruct orient outliers info check compare render demo rerun; do
+    "$program" "$verb" --help-all
+  done >help
   for name in $(grep -oE -- '--[a-z][a-z-]*' "$page" | sort -u); do
     grep -qE -- "$name([^a-z-]|\$)" help || die "docs/parameters.md speaks of $name, which no verb knows"
   done
