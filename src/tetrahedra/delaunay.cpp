@@ -17,6 +17,7 @@
 #include "geometry/predicates.h"
 #include "geometry/tetrahedron.h"
 #include "parallel/compressed_rows.h"
+#include "tetrahedra/growth.h"
 
 namespace eigencrust {
 namespace {
@@ -30,11 +31,16 @@ using Delaunay = CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data
 // "Much wider than the cloud" (§3): no sample may lie near a side.
 constexpr double cube_half_side_in_diagonals = 10;
 
+// A sample among thousands of tetrahedra takes a thousandth of a second, any other a thousandth of that.
+constexpr std::uint32_t samples_between_looks = 32;
+
 /// In random rounds, each four times as large as the one before and along the Hilbert curve (BRIO; Amenta, Choi, Rote
 /// 2003).
-void insert_all(Delaunay& delaunay, const IndexedArray<SampleIndex, Vec3>& positions, std::uint32_t samples) {
+void insert_all(Delaunay& delaunay, const IndexedArray<SampleIndex, Vec3>& positions, std::uint32_t samples,
+                const WatchGrowth& watch) {
   Delaunay::Cell_handle hint;
   const auto insert = [&](std::uint32_t i) {
+    if (watch && delaunay.number_of_vertices() % samples_between_looks == 0) watch(delaunay.tds().number_of_cells());
     const Vec3& p = positions.raw()[i];
     const Delaunay::Vertex_handle v = delaunay.insert({p.x, p.y, p.z}, hint);
     v->info() = i;
@@ -124,6 +130,11 @@ void sort_tetrahedra(Tetrahedralization& t, const Threads& threads) {
 } // namespace
 
 Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const std::function<void()>& beside) {
+  return tetrahedralize(std::move(samples), threads, beside, {});
+}
+
+Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const std::function<void()>& beside,
+                                  const WatchGrowth& watch) {
   const int dimension = affine_dimension(samples.positions.raw());
   if (dimension <= 2)
     throw Error(ErrorKind::input, "delaunay", dimension < 2 ? "all points are collinear" : "all points are coplanar",
@@ -142,7 +153,7 @@ Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const
   Delaunay& delaunay = *engine;
   threads.run(beside ? 2 : 1, [&](std::size_t task) {
     if (task == 0)
-      insert_all(delaunay, result.positions, result.sample_count);
+      insert_all(delaunay, result.positions, result.sample_count, watch);
     else
       beside();
   });
