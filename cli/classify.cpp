@@ -10,7 +10,8 @@ int classify_verb(const Arguments& arguments) {
   add_input_options(app, request.input);
   app.add_option("-o,--output", request.output,
                  "Cloud to write (ply xyz txt asc csv): all rows in order, with inlier (1 or 0) and confidence")
-      ->required();
+      ->required()
+      ->type_name(file_to_write);
   add_method_options(app, request);
   add_run_options(app, request);
   if (const Parsed parsed = parse(app, arguments); parsed.done) return parsed.status;

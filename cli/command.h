@@ -15,6 +15,10 @@
 #include <eigencrust/io.h>
 #include <eigencrust/validate.h>
 
+#include "files.h"
+#include "printable.h"
+#include "signals.h"
+
 namespace eigencrust::cli {
 
 /// Arguments after the verb, and the whole line for the report.
@@ -37,7 +41,7 @@ struct Parsed {
   bool done = false;
   int status = 0;
 };
-/// \throws Error{usage} with CLI11's explanation
+/// \throws Error{usage} with CLI11's explanation, and where an output would overwrite what is read
 Parsed parse(CLI::App& app, const Arguments& arguments);
 
 /// Several inputs are several scans of one scene.
@@ -57,10 +61,6 @@ PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& file
 std::unique_ptr<Observer> make_observer(const std::string& mode, const std::filesystem::path& dump_folder, bool quiet);
 /// Takes the bar off the terminal before anything else is printed.
 void clear_progress();
-
-/// Ctrl-C asks the running stage to stop; a second one ends the program at once.
-void catch_interrupts();
-bool interrupted();
 
 void print_warning(const std::string& text);
 /// A few lines for people: counts, guarantees, size.

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <sstream>
 
@@ -11,17 +9,6 @@
 
 namespace eigencrust::cli {
 namespace {
-
-// A signal handler can reach nothing but a variable with static storage.
-volatile std::sig_atomic_t interrupt_count = 0;
-
-void on_interrupt(int signal_number) {
-  interrupt_count = interrupt_count + 1;
-  if (interrupt_count > 1) {
-    std::signal(signal_number, SIG_DFL);
-    std::raise(signal_number);
-  }
-}
 
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts;
@@ -91,13 +78,6 @@ void note_sensors(const PointCloud& cloud, std::vector<InputFile>& files) {
 
 } // namespace
 
-void catch_interrupts() {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
-}
-
-bool interrupted() { return interrupt_count > 0; }
-
 Parsed parse(CLI::App& app, const Arguments& arguments) {
   std::vector<std::string> reversed(arguments.words.rbegin(), arguments.words.rend());
   try {
@@ -107,6 +87,8 @@ Parsed parse(CLI::App& app, const Arguments& arguments) {
   } catch (const CLI::ParseError& error) {
     throw Error(ErrorKind::usage, "command line", error.what(), "see --help");
   }
+  check_files(app);
+  forget_files();
   return {};
 }
 
@@ -114,11 +96,13 @@ void add_input_options(CLI::App& app, InputOptions& options) {
   app.add_option(
          "INPUT", options.paths,
          "Point clouds (ply e57 las ptx pcd pts npz npy xyz txt asc csv obj off stl); several are several scans")
-      ->required();
+      ->required()
+      ->type_name(file_to_read);
   app.add_option("--columns", options.columns,
                  "Names of a text file's columns in order, e.g. x,y,z,red,green,blue; - skips one");
   app.add_option("--scan-index", options.scan_index,
-                 "Scan number of each point of one file that holds several scans: bytes (.u8) or one number per line");
+                 "Scan number of each point of one file that holds several scans: bytes (.u8) or one number per line")
+      ->type_name(file_to_read);
   app.add_option("--pcd-viewpoint", options.pcd_viewpoint,
                  "VIEWPOINT of PCD files: auto (sensor unless 0 0 0), sensor (its position), pose (also moves the "
                  "points) or none")
@@ -131,7 +115,8 @@ void add_input_options(CLI::App& app, InputOptions& options) {
                  "x,y,z direction from the surface to the scanner, for parallel rays; repeat for each input")
       ->allow_extra_args(false);
   app.add_option("--sensors", options.sensors,
-                 "File with a row scan,x,y,z for each scan, or scan,dx,dy,dz under a header; none: ignore all sensors");
+                 "File with a row scan,x,y,z for each scan, or scan,dx,dy,dz under a header; none: ignore all sensors")
+      ->type_name(file_to_read);
 }
 
 PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& files,
@@ -143,13 +128,14 @@ PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& file
   PointCloud cloud;
   for (const std::string& path : options.paths) {
     std::vector<std::string> said;
-    PointCloud next = read_point_cloud(path, read_options, &said);
+    std::string sha256;
+    PointCloud next = read_point_cloud(path, read_options, &said, &sha256);
     if (notes != nullptr) notes->push_back(std::move(said));
     if (!sensors.empty()) {
       next.sensors.assign(1, sensors[files.size()]);
       next.sensor_of.assign(next.points.size(), 0);
     }
-    files.push_back({path, sha256_of_file(path), next.points.size(), {}, 0});
+    files.push_back({path, std::move(sha256), next.points.size(), {}, 0});
     if (files.size() == 1)
       cloud = std::move(next);
     else
@@ -168,7 +154,7 @@ PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& file
 
 void print_warning(const std::string& text) {
   clear_progress();
-  std::fprintf(stderr, "eigencrust: warning: %s\n", text.c_str());
+  std::fprintf(stderr, "eigencrust: warning: %s\n", printable(text).c_str());
 }
 
 std::string grouped(std::uint64_t value) {
@@ -197,7 +183,7 @@ std::string describe(const MeshSummary& mesh) {
                           : "no (" + count(mesh.nonmanifold_edges, "edge", "edges") + ", " +
                                 count(mesh.nonmanifold_vertices, "vertex", "vertices") + ")");
   out << ", oriented: "
-      << (mesh.oriented() ? (mesh.volume >= 0 ? "yes" : "yes, inward")
+      << (mesh.oriented() ? (mesh.volume >= 0 || !mesh.closed() ? "yes" : "yes, inward")
                           : "no (" + count(mesh.inconsistent_edges, "edge", "edges") + ")")
       << "\n";
   if (mesh.degenerate_triangles > 0) out << "  degenerate triangles: " << grouped(mesh.degenerate_triangles) << "\n";

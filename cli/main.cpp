@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <map>
 #include <new>
 #include <stdexcept>
+#include <system_error>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -45,8 +51,21 @@ constexpr const char* exhausted =
 /// Allocates nothing, for there may be nothing left.
 int fail(const char* message, ErrorKind kind) {
   cli::clear_progress();
-  std::fprintf(stderr, "eigencrust: error: %s\n", message);
+  if (cli::status_of_files() >= 0) { // only the words about them failed
+    std::fputs("eigencrust: warning: the summary could not be printed; the output files are complete\n", stderr);
+    return cli::status_of_files();
+  }
+  std::fputs("eigencrust: error: ", stderr);
+  cli::print_clean(message, [](std::string_view piece) { std::fwrite(piece.data(), 1, piece.size(), stderr); });
+  std::fputc('\n', stderr);
   return static_cast<int>(kind);
+}
+
+/// As above, for what other libraries throw.
+int fail(const std::exception& error, const char* rest, ErrorKind kind) {
+  std::array<char, 1000> text{};
+  std::snprintf(text.data(), text.size(), "%.800s %s", error.what(), rest);
+  return fail(text.data(), kind);
 }
 
 using Verbs = std::map<std::string, int (*)(const cli::Arguments&)>;
@@ -120,8 +139,6 @@ int run(const cli::Arguments& all) {
   return verb->second({{all.words.begin() + 1, all.words.end()}, all.command});
 }
 
-} // namespace
-
 /// Freed arrays stay with the process. Stage after stage takes arrays of the same size, and fresh pages are slow
 /// (docs/decisions/0022).
 void keep_freed_memory() {
@@ -131,11 +148,17 @@ void keep_freed_memory() {
 #endif
 }
 
-int main(int argc, char** argv) {
-  keep_freed_memory();
-  cli::Arguments arguments;
-  arguments.command.assign(argv, argv + argc);
-  arguments.words.assign(argv + (argc > 0 ? 1 : 0), argv + argc);
+/// The first files that are opened get the numbers of standard streams that are closed: what is meant for a terminal
+/// would be written into a mesh. Nothing can be written to what takes their place.
+void keep_stream_numbers() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0 && errno == EBADF) {
+      const int unwritable = open("/dev/null", O_RDONLY);
+      if (unwritable >= 0 && unwritable != stream) close(unwritable);
+    }
+}
+
+int run_safely(const cli::Arguments& arguments) {
   try {
     const int status = run(arguments);
     std::cout.flush();
@@ -148,8 +171,30 @@ int main(int argc, char** argv) {
     return fail(exhausted, ErrorKind::memory);
   } catch (const std::length_error&) { // a container larger than any memory
     return fail(exhausted, ErrorKind::memory);
+  } catch (const std::system_error& error) { // of files, threads, locks
+    return fail(error, "(system); check the names, the permissions and the limits", ErrorKind::input);
   } catch (const std::exception& error) {
-    const std::string text = std::string(error.what()) + " (internal); report this as a fault of the program";
-    return fail(text.c_str(), ErrorKind::guarantee);
+    return fail(error, "(internal); report this as a fault of the program", ErrorKind::guarantee);
   }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  keep_freed_memory();
+  keep_stream_numbers();
+  cli::catch_interrupts();
+  cli::CleanBuffer clean(std::cout.rdbuf());
+  std::streambuf* const bare = std::cout.rdbuf(&clean);
+  int status = static_cast<int>(ErrorKind::memory);
+  try {
+    cli::Arguments arguments;
+    arguments.command.assign(argv, argv + argc);
+    arguments.words.assign(argv + (argc > 0 ? 1 : 0), argv + argc);
+    status = run_safely(arguments);
+  } catch (const std::bad_alloc&) {
+    status = fail(exhausted, ErrorKind::memory);
+  }
+  std::cout.rdbuf(bare);
+  return status;
 }

@@ -50,8 +50,10 @@ void add_method_options(CLI::App& app, Request& r) {
       ->allow_extra_args(false);
   app.add_option("--inside-point", r.inside_points, "x,y,z of a point known to be inside; repeatable")
       ->allow_extra_args(false);
-  app.add_option("--outside-points", r.outside_files, "File of points known to be outside; repeatable");
-  app.add_option("--inside-points", r.inside_files, "File of points known to be inside; repeatable");
+  app.add_option("--outside-points", r.outside_files, "File of points known to be outside; repeatable")
+      ->type_name(file_to_read);
+  app.add_option("--inside-points", r.inside_files, "File of points known to be inside; repeatable")
+      ->type_name(file_to_read);
   app.add_option("--crossing-depth", r.crossing_depth,
                  "Where sensors are known: a line of sight crosses what it enters farther than this from its sample; "
                  "auto or a length" +
@@ -78,11 +80,12 @@ void add_run_options(CLI::App& app, Request& r) {
       ->capture_default_str();
   app.add_option("--max-memory", r.max_memory,
                  "Refuse the cloud, before any work, if more memory is forecast: 4G, 500M, bytes [none]");
-  app.add_option("--report", r.report, "Write what was done and found as JSON");
+  app.add_option("--report", r.report, "Write what was done and found as JSON")->type_name(file_to_write);
   app.add_option("--progress", r.progress, "auto, bar, jsonl or off; on stderr")
       ->check(CLI::IsMember({"auto", "bar", "jsonl", "off"}))
       ->capture_default_str();
-  app.add_option("--dump-stages", r.dump_stages, "Folder for the stages' products as PLY files");
+  app.add_option("--dump-stages", r.dump_stages, "Folder for the stages' products as PLY files")
+      ->type_name(folder_to_write);
   app.add_flag("-q,--quiet", r.quiet, "Print nothing but errors");
 }
 
@@ -129,34 +132,22 @@ void check_outputs(const Request& r, OutputKind kind) {
   if (kind == OutputKind::cloud && !can_write_point_cloud(r.output))
     throw Error(ErrorKind::usage, r.output, "no format of clouds that can be written is known by this name",
                 "end it in .ply, .xyz, .txt, .asc or .csv");
+  std::error_code ignored; // whatever it is, the folder cannot be used
   for (const std::string& path : {r.output, r.report}) {
     if (path.empty()) continue;
     const fs::path folder = fs::path(path).parent_path();
-    if (!folder.empty() && !fs::is_directory(folder))
+    if (!folder.empty() && !fs::is_directory(folder, ignored))
       throw Error(ErrorKind::usage, path, "the folder " + folder.string() + " does not exist", "create it first");
-    if (fs::is_directory(path)) throw Error(ErrorKind::usage, path, "this is a folder", "name a file");
+    if (fs::is_directory(path, ignored)) throw Error(ErrorKind::usage, path, "this is a folder", "name a file");
   }
-  std::error_code ignored;
-  std::vector<std::string> inputs = r.input.paths;
-  inputs.push_back(r.input.scan_index);
-  inputs.push_back(r.input.sensors);
-  for (const std::string& path : {r.output, r.report})
-    for (const std::string& input : inputs)
-      if (fs::equivalent(input, path, ignored))
-        throw Error(ErrorKind::usage, path, "the output would overwrite an input", "choose another name");
-  const auto place = [&](const std::string& path) {
-    return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
-  };
-  if (!r.report.empty() && place(r.output) == place(r.report))
-    throw Error(ErrorKind::usage, r.report, "output and report would be the same file", "choose another name");
-  if (!r.dump_stages.empty() && !fs::is_directory(r.dump_stages) && !fs::create_directories(r.dump_stages))
+  if (!r.dump_stages.empty() && !fs::is_directory(r.dump_stages, ignored) &&
+      !fs::create_directories(r.dump_stages, ignored))
     throw Error(ErrorKind::usage, r.dump_stages, "the folder cannot be created", "choose another one");
 }
 
 MethodRun::MethodRun(const Request& request, const Arguments& arguments, OutputKind kind)
     : request_(request), arguments_(arguments) {
   check_outputs(request, kind);
-  catch_interrupts();
   observer_ = make_observer(request.progress, request.dump_stages, request.quiet);
   cloud = read_inputs(request.input, files_);
 }
@@ -182,13 +173,20 @@ WriteOptions MethodRun::write_options() const {
   return {.spacing = result.report.spacing, .comments = {std::string("made by eigencrust ") + version()}};
 }
 
-void MethodRun::finish(const WriteResult& written) {
+void MethodRun::finish(const std::function<WriteResult(OutputFiles&)>& write) {
   Report& report = result.report;
+  OutputFiles files;
+  const WriteResult written = write(files);
   report.warnings.insert(report.warnings.end(), written.warnings.begin(), written.warnings.end());
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   report.peak_memory_bytes = peak_memory_bytes();
-  if (!request_.report.empty())
-    write_file_atomically(request_.report, [&](std::ostream& out) { out << to_json(report) << "\n"; });
+  if (!request_.report.empty()) {
+    const std::string text = to_json(report) + "\n";
+    files.add(request_.report, [&](std::ostream& out) { out << text; });
+  }
+  Commit commit;
+  files.put_in_place();
+  commit.done(report.broken_guarantees.empty() ? 0 : static_cast<int>(ErrorKind::guarantee));
   clear_progress();
   if (request_.quiet) return;
   for (std::size_t i = told_.size(); i < report.warnings.size(); ++i) print_warning(report.warnings[i]);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 
 #include "command.h"
@@ -54,8 +55,9 @@ class MethodRun {
   void reconstruct(const Options& options);
   /// How the output is to be written. \throws Error{cancelled}
   [[nodiscard]] WriteOptions write_options() const;
-  /// Notes what the writer said, writes the report and prints the warnings.
-  void finish(const WriteResult& written);
+  /// Lets `write` prepare the output, notes what it said, adds the report, puts both in their places and prints the
+  /// warnings. Whatever fails before, no file appears.
+  void finish(const std::function<WriteResult(OutputFiles&)>& write);
   /// Seconds and memory for the line of summary.
   [[nodiscard]] std::string cost() const;
   /// 0, or the status of a broken guarantee, which is told.

@@ -10,7 +10,8 @@ int orient_verb(const Arguments& arguments) {
   add_input_options(app, request.input);
   app.add_option("-o,--output", request.output,
                  "Cloud to write (ply xyz txt asc csv): all rows in order, with nx, ny and nz")
-      ->required();
+      ->required()
+      ->type_name(file_to_write);
   app.add_flag("--drop-outliers", drop_outliers, "Leave out the rows that have no normal");
   add_method_options(app, request);
   add_run_options(app, request);

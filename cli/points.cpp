@@ -49,11 +49,11 @@ int write_points(MethodRun& run, const Request& request, bool drop_outliers) {
     run.cloud.attributes.push_back(make_attribute("scan_index", run.cloud.scan_index));
     run.cloud.scan_index.clear();
   }
-  run.finish(write_point_cloud(request.output, run.cloud, run.write_options()));
+  run.finish([&](OutputFiles& files) { return files.add_point_cloud(request.output, run.cloud, run.write_options()); });
   if (!request.quiet) {
-    std::cout << request.output << ": " << grouped(run.cloud.points.size()) << " points in " << run.cost() << "\n  "
-              << grouped(inliers.size()) << " inliers, " << grouped(report.points - report.nonfinite - inliers.size())
-              << " outliers";
+    std::cout << printable(request.output) << ": " << grouped(run.cloud.points.size()) << " points in " << run.cost()
+              << "\n  " << grouped(inliers.size()) << " inliers, "
+              << grouped(report.points - report.nonfinite - inliers.size()) << " outliers";
     if (report.nonfinite > 0) std::cout << ", " << grouped(report.nonfinite) << " not finite";
     std::cout << (drop_outliers ? "; only the inliers are written\n" : "\n");
   }

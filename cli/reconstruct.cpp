@@ -11,7 +11,9 @@ int reconstruct_verb(const Arguments& arguments) {
   Request request;
   CLI::App app("Point clouds to a closed, manifold, outward oriented triangle mesh.", "eigencrust reconstruct");
   add_input_options(app, request.input);
-  app.add_option("-o,--output", request.output, "Mesh to write (ply obj off stl)")->required();
+  app.add_option("-o,--output", request.output, "Mesh to write (ply obj off stl)")
+      ->required()
+      ->type_name(file_to_write);
   add_method_options(app, request);
   add_smoothing_options(app, request);
   add_run_options(app, request);
@@ -20,10 +22,10 @@ int reconstruct_verb(const Arguments& arguments) {
   const Options options = effective_options(request);
   MethodRun run(request, arguments, OutputKind::mesh);
   run.reconstruct(options);
-  run.finish(write_mesh(request.output, run.result.mesh, run.write_options()));
+  run.finish([&](OutputFiles& files) { return files.add_mesh(request.output, run.result.mesh, run.write_options()); });
   const Report& report = run.result.report;
   if (!request.quiet) {
-    std::cout << request.output << ": " << grouped(report.points) << " points in " << run.cost() << "\n"
+    std::cout << printable(request.output) << ": " << grouped(report.points) << " points in " << run.cost() << "\n"
               << describe(report.mesh);
     if (report.one_sided)
       std::cout << "  one-sided scan: every line of sight is within "

@@ -10,10 +10,8 @@ namespace {
 
 /// A file with triangles is drawn as a mesh, any other cloud as points.
 TriangleMesh read_anything(const std::string& path, bool as_points) {
-  if (!as_points && can_write_mesh(path)) { // formats that may hold triangles
-    TriangleMesh mesh = read_mesh(path);
-    if (!mesh.triangles.empty()) return mesh;
-  }
+  // Formats that may hold triangles; where there are none, the vertices are drawn. A pipe is read but once.
+  if (!as_points && can_write_mesh(path)) return read_mesh(path);
   PointCloud cloud = read_point_cloud(path);
   TriangleMesh points;
   points.vertices = std::move(cloud.points);
@@ -30,8 +28,10 @@ int render_verb(const Arguments& arguments) {
   RenderOptions options;
   CLI::App app("A picture of a mesh or a cloud without a display. Back faces are red, so that inside-out is seen.",
                "eigencrust render");
-  app.add_option("MESH", inputs, "Mesh or point cloud; several are put side by side, in one frame")->required();
-  app.add_option("-o,--output", output, "PNG to write")->required();
+  app.add_option("MESH", inputs, "Mesh or point cloud; several are put side by side, in one frame")
+      ->required()
+      ->type_name(file_to_read);
+  app.add_option("-o,--output", output, "PNG to write")->required()->type_name(file_to_write);
   app.add_option("--width", options.width, "Pixels")->capture_default_str();
   app.add_option("--height", options.height, "Pixels")->capture_default_str();
   app.add_option("--azimuth", options.azimuth, "Where the camera stands around the up axis, degrees")
