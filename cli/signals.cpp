@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "signals.h"
 
+#include <cxxabi.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <ctime>
+#include <exception>
+#include <new>
 #include <string_view>
+#include <typeinfo>
 
 #include <eigencrust/error.h>
 #include <eigencrust/io.h>
@@ -24,14 +28,30 @@ volatile std::sig_atomic_t has_deadline = 0;
 
 constexpr long patience_in_nanoseconds = 300'000'000;
 
-[[noreturn]] void end_now() {
+/// \param message begins and ends with a line feed
+[[noreturn]] void end_with(std::string_view message, ErrorKind kind) {
   remove_temporaries();
   if (status_when_done >= 0) _exit(status_when_done);
-  constexpr std::string_view message = "\neigencrust: error: cancelled (signal); start again to finish\n";
   const bool terminal = isatty(STDERR_FILENO) != 0; // where a bar may stand in the line
   const std::string_view text = message.substr(terminal ? 0 : 1);
   [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, text.data(), text.size());
-  _exit(static_cast<int>(ErrorKind::cancelled));
+  _exit(static_cast<int>(kind));
+}
+
+[[noreturn]] void end_now() {
+  end_with("\neigencrust: error: cancelled (signal); start again to finish\n", ErrorKind::cancelled);
+}
+
+/// Where no exception may pass: destructors of the JSON library take memory, and so do tasks of other threads.
+[[noreturn]] void on_terminate() {
+  const std::type_info* const type = abi::__cxa_current_exception_type();
+  if (type != nullptr && *type == typeid(std::bad_alloc))
+    end_with(
+        "\neigencrust: error: memory is exhausted (memory); give fewer points or take a machine with more, info "
+        "forecasts what is needed\n",
+        ErrorKind::memory);
+  end_with("\neigencrust: error: an exception was not caught (internal); report this as a fault of the program\n",
+           ErrorKind::guarantee);
 }
 
 void on_signal(int) {
@@ -64,6 +84,7 @@ bool is_ignored(int number) {
 } // namespace
 
 void catch_interrupts() {
+  std::set_terminate(on_terminate);
   handle(SIGXFSZ, SIG_IGN);
   handle(SIGALRM, on_deadline);
   sigevent event{};

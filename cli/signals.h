@@ -8,7 +8,8 @@ namespace eigencrust::cli {
 /// From here on SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU and SIGPIPE ask the running stage to stop. Where it has not
 /// within 0.3 s (it waits for a pipe, say), or at a second signal, temporaries are removed and the process ends with
 /// status 130. SIGXFSZ is ignored: the write that went too far says so. What was ignored from the start stays so for
-/// SIGHUP and SIGPIPE (nohup).
+/// SIGHUP and SIGPIPE (nohup). An exception that nobody can catch ends the process in the same way, with the status of
+/// its kind.
 void catch_interrupts();
 bool interrupted();
 
