@@ -13,7 +13,10 @@
 #include <eigencrust/io.h>
 #include <eigencrust/validate.h>
 
+#include "files.h"
 #include "option_table.h"
+#include "printable.h"
+#include "signals.h"
 
 namespace eigencrust::cli {
 
@@ -43,7 +46,8 @@ struct Parsed {
   int status = 0;
   std::vector<std::string> command; ///< the whole line for the report, options from --config written out
 };
-/// Adds --help, --help-all and --config to what the verb declared. \throws Error{usage} saying what was meant
+/// Adds --help, --help-all and --config to what the verb declared. \throws Error{usage} saying what was meant, and
+/// where an output would overwrite what is read
 Parsed parse(OptionTable& app, const Arguments& arguments);
 
 inline constexpr const char* help_chapter = "Help";
@@ -66,10 +70,6 @@ struct ReadReport {
 /// that the files hold. \param progress gets the fraction done
 PointCloud read_inputs(const InputOptions& options, ReadReport& report,
                        const std::function<void(double)>& progress = {});
-
-/// Ctrl-C asks the running stage to stop; a second one ends the program at once.
-void catch_interrupts();
-bool interrupted();
 
 /// A few lines for people: counts, guarantees, size.
 std::string describe(const MeshSummary& mesh);

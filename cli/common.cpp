@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <sstream>
 
@@ -13,17 +11,6 @@
 
 namespace eigencrust::cli {
 namespace {
-
-// A signal handler can reach nothing but a variable with static storage.
-volatile std::sig_atomic_t interrupt_count = 0;
-
-void on_interrupt(int signal_number) {
-  interrupt_count = interrupt_count + 1;
-  if (interrupt_count > 1) {
-    std::signal(signal_number, SIG_DFL);
-    std::raise(signal_number);
-  }
-}
 
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts;
@@ -93,32 +80,26 @@ void note_sensors(const PointCloud& cloud, std::vector<InputFile>& files) {
 
 } // namespace
 
-void catch_interrupts() {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
-}
-
-bool interrupted() { return interrupt_count > 0; }
-
 void add_input_options(OptionTable& app, InputOptions& options) {
   app.begin_chapter("Reading");
   app.add_option(
          "INPUT", options.paths,
          "Point clouds (ply e57 las ptx pcd pts npz npy xyz txt asc csv obj off stl); several are several scans; "
          "- is standard input")
-      ->required();
+      ->required()
+      ->type_name(file_to_read);
   app.add_option("--columns", options.columns,
                  "Names of a text file's columns in order, e.g. x,y,z,red,green,blue; - skips one")
       ->type_name("LIST");
   app.add_option("--crop", options.crop,
                  "Keep what lies in a box, x,y,z,x,y,z or x,y,x,y, or in a polygon, x,y;x,y;x,y or a file of rows x y")
-      ->type_name("SHAPE");
+      ->type_name(shape_or_file);
   app.add_option("--thin", options.thin,
                  "Keep one point of each cube with this edge: a length, or N% of the box's diagonal")
       ->type_name("L");
   app.add_option("--scan-index", options.scan_index,
                  "Scan number of each point of one file that holds several scans: bytes (.u8) or one number per line")
-      ->type_name("FILE");
+      ->type_name(file_to_read);
   app.add_option("--pcd-viewpoint", options.pcd_viewpoint,
                  "VIEWPOINT of PCD files: auto (sensor unless 0 0 0), sensor (its position), pose (also moves the "
                  "points) or none")
@@ -133,7 +114,7 @@ void add_input_options(OptionTable& app, InputOptions& options) {
       ->type_name("X,Y,Z");
   app.add_option("--sensors", options.sensors,
                  "File with a row scan,x,y,z for each scan, or scan,dx,dy,dz under a header; none: ignore all sensors")
-      ->type_name("FILE");
+      ->type_name(file_to_read);
 }
 
 namespace {
@@ -143,9 +124,10 @@ PointCloud read_input(const std::string& path, const ReadOptions& options, ReadR
   const ReadableFile file(path);
   return file.reading([&] {
     std::vector<std::string> said;
-    PointCloud cloud = read_point_cloud(file.path(), options, &said);
+    std::string sha256;
+    PointCloud cloud = read_point_cloud(file.path(), options, &said, &sha256);
     report.notes.push_back(std::move(said));
-    report.files.push_back({path, sha256_of_file(file.path()), cloud.points.size(), {}, 0});
+    report.files.push_back({path, std::move(sha256), cloud.points.size(), {}, 0});
     return cloud;
   });
 }
@@ -250,7 +232,7 @@ std::string describe(const MeshSummary& mesh) {
                           : "no (" + count(mesh.nonmanifold_edges, "edge", "edges") + ", " +
                                 count(mesh.nonmanifold_vertices, "vertex", "vertices") + ")");
   out << ", oriented: "
-      << (mesh.oriented() ? (mesh.volume >= 0 ? "yes" : "yes, inward")
+      << (mesh.oriented() ? (mesh.volume >= 0 || !mesh.closed() ? "yes" : "yes, inward")
                           : "no (" + count(mesh.inconsistent_edges, "edge", "edges") + ")")
       << "\n";
   if (mesh.degenerate_triangles > 0) out << "  degenerate triangles: " << grouped(mesh.degenerate_triangles) << "\n";

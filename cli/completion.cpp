@@ -38,7 +38,9 @@ std::vector<std::string> verb_names(const std::vector<VerbText>& verbs) {
   return names;
 }
 
-bool names_file(const OptionText& option) { return option.value == "FILE" || option.value == "SHAPE"; }
+bool names_file(const OptionText& option) {
+  return option.value == file_to_read || option.value == file_to_write || option.value == shape_or_file;
+}
 
 /// Options without a verb are those of reconstruct.
 void print_bash() {

@@ -8,12 +8,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The bundled scan: beside an installed program, else in the source tree it was built from.
+/// The bundled scan: beside an installed program, else beside the one that was built.
 fs::path bundled_scan() {
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  for (const fs::path& folder :
-       {program.parent_path() / EIGENCRUST_EXAMPLES_INSTALLED, fs::path(EIGENCRUST_EXAMPLES_SOURCE)}) {
+  for (const char* place : {EIGENCRUST_EXAMPLES_INSTALLED, "examples"}) {
+    const fs::path folder = program.parent_path() / place;
     const fs::path scan = folder / "teapot_scan.ply";
     if (!fs::is_regular_file(scan, ignored)) continue;
     // The shorter of the two names, for people to read.
@@ -42,7 +42,7 @@ int demo_verb(const Arguments& arguments) {
                     report = (fs::path(folder) / "teapot.json").string();
   const auto show = [](const std::vector<std::string>& words) {
     std::cout << "$ eigencrust";
-    for (const std::string& word : words) std::cout << " " << word;
+    for (const std::string& word : words) std::cout << " " << printable(word);
     std::cout << std::endl;
     return words;
   };

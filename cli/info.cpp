@@ -199,10 +199,11 @@ void print_forecast(const nlohmann::ordered_json& j) {
 
 void print(const nlohmann::ordered_json& j) {
   for (const auto& f : j["files"]) {
-    std::cout << f["path"].get<std::string>() << ": " << grouped(f["points"].get<std::uint64_t>()) << " points";
+    std::cout << printable(f["path"].get<std::string>()) << ": " << grouped(f["points"].get<std::uint64_t>())
+              << " points";
     if (j["files"].size() > 1) std::cout << ", forecast " << show_forecast(f["forecast"]);
     std::cout << "\n";
-    for (const auto& note : f["notes"]) std::cout << "  " << note.get<std::string>() << "\n";
+    for (const auto& note : f["notes"]) std::cout << "  " << printable(note.get<std::string>()) << "\n";
   }
   print_samples(j);
   print_forecast(j);
@@ -210,7 +211,7 @@ void print(const nlohmann::ordered_json& j) {
   if (j["attributes"].empty()) return;
   std::cout << "  attributes";
   for (const auto& a : j["attributes"])
-    std::cout << " " << a["name"].get<std::string>() << ":" << a["type"].get<std::string>()
+    std::cout << " " << printable(a["name"].get<std::string>()) << ":" << a["type"].get<std::string>()
               << (a["list"].get<bool>() ? "[]" : "");
   std::cout << "\n";
 }

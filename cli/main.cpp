@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
 #include <cstdio>
 #include <iostream>
 #include <new>
 #include <stdexcept>
+#include <system_error>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -18,9 +24,21 @@ using namespace eigencrust;
 constexpr const char* exhausted =
     "memory is exhausted (memory); give fewer points or take a machine with more, info forecasts what is needed";
 
+/// Allocates nothing, for there may be nothing left.
 int fail(const char* message, ErrorKind kind) {
+  if (cli::status_of_files() >= 0) { // only the words about them failed
+    cli::print_warning_of("the summary could not be printed; the output files are complete");
+    return cli::status_of_files();
+  }
   cli::print_error(message);
   return static_cast<int>(kind);
+}
+
+/// As above, for what other libraries throw.
+int fail(const std::exception& error, const char* rest, ErrorKind kind) {
+  std::array<char, 1000> text{};
+  std::snprintf(text.data(), text.size(), "%.800s %s", error.what(), rest);
+  return fail(text.data(), kind);
 }
 
 /// Before anything is parsed: what is wrong with the command line is told in the same way.
@@ -47,13 +65,12 @@ int run(const cli::Arguments& arguments) {
     return fail(exhausted, ErrorKind::memory);
   } catch (const std::length_error&) { // a container larger than any memory
     return fail(exhausted, ErrorKind::memory);
+  } catch (const std::system_error& error) { // of files, threads, locks
+    return fail(error, "(system); check the names, the permissions and the limits", ErrorKind::input);
   } catch (const std::exception& error) {
-    const std::string text = std::string(error.what()) + " (internal); report this as a fault of the program";
-    return fail(text.c_str(), ErrorKind::guarantee);
+    return fail(error, "(internal); report this as a fault of the program", ErrorKind::guarantee);
   }
 }
-
-} // namespace
 
 /// Freed arrays stay with the process. Stage after stage takes arrays of the same size, and fresh pages are slow
 /// (docs/decisions/0022).
@@ -64,12 +81,34 @@ void keep_freed_memory() {
 #endif
 }
 
+/// The first files that are opened get the numbers of standard streams that are closed: what is meant for a terminal
+/// would be written into a mesh. Nothing can be written to what takes their place.
+void keep_stream_numbers() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0 && errno == EBADF) {
+      const int unwritable = open("/dev/null", O_RDONLY);
+      if (unwritable >= 0 && unwritable != stream) close(unwritable);
+    }
+}
+
+} // namespace
+
 int main(int argc, char** argv) {
   keep_freed_memory();
-  cli::Arguments arguments;
-  arguments.command.assign(argv, argv + argc);
-  arguments.words.assign(argv + (argc > 0 ? 1 : 0), argv + argc);
-  const int status = run(arguments);
+  keep_stream_numbers();
+  cli::catch_interrupts();
+  cli::CleanBuffer clean(std::cout.rdbuf());
+  std::streambuf* const bare = std::cout.rdbuf(&clean);
+  int status = static_cast<int>(ErrorKind::memory);
+  try {
+    cli::Arguments arguments;
+    arguments.command.assign(argv, argv + argc);
+    arguments.words.assign(argv + (argc > 0 ? 1 : 0), argv + argc);
+    status = run(arguments);
+  } catch (const std::bad_alloc&) {
+    status = fail(exhausted, ErrorKind::memory);
+  }
+  std::cout.rdbuf(bare);
   cli::print_end(status);
   return status;
 }

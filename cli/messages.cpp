@@ -5,12 +5,21 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "printable.h"
+
 namespace eigencrust::cli {
 namespace {
 
 // One stderr per process.
 bool bar_is_shown = false;
 bool json_is_spoken = false;
+
+/// Allocates nothing.
+void print_line(const char* begin, const char* text) {
+  std::fputs(begin, stderr);
+  print_clean(text, [](std::string_view piece) { std::fwrite(piece.data(), 1, piece.size(), stderr); });
+  std::fputc('\n', stderr);
+}
 
 } // namespace
 
@@ -41,8 +50,12 @@ void print_json(std::string_view members) {
 
 void print_warning(const std::string& text) {
   if (json_is_spoken) return print_json("\"event\":\"warning\",\"text\":" + json_text(text));
+  print_warning_of(text.c_str());
+}
+
+void print_warning_of(const char* text) {
   clear_progress();
-  std::fprintf(stderr, "eigencrust: warning: %s\n", text.c_str());
+  print_line("eigencrust: warning: ", text);
 }
 
 void print_error(const char* text) {
@@ -56,7 +69,7 @@ void print_error(const char* text) {
     }
   }
   clear_progress();
-  std::fprintf(stderr, "eigencrust: error: %s\n", text);
+  print_line("eigencrust: error: ", text);
 }
 
 void print_end(int status) {

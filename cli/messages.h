@@ -19,6 +19,8 @@ void clear_progress();
 void show_progress(const std::string& line);
 
 void print_warning(const std::string& text);
+/// The line for people, whatever is spoken; allocates nothing.
+void print_warning_of(const char* text);
 /// Allocates nothing unless JSON is spoken, for there may be nothing left.
 void print_error(const char* text);
 /// The last line of a stream of JSON; nothing else.

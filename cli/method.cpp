@@ -20,10 +20,10 @@ std::string defaults(const std::string& robust, const std::string& paper) {
 
 void add_output_options(OptionTable& app, Request& r, const std::string& what) {
   app.begin_chapter("Results");
-  app.add_option("-o,--output", r.output, what)->type_name("FILE");
+  app.add_option("-o,--output", r.output, what)->type_name(file_to_write);
   app.add_option("--format", r.format, "Format of the result, instead of that of its name's ending; needed with -o -")
       ->type_name("NAME");
-  app.add_option("--report", r.report, "Write what was done and found as JSON")->type_name("FILE");
+  app.add_option("--report", r.report, "Write what was done and found as JSON")->type_name(file_to_write);
   app.add_flag("--each", r.each,
                "Each input is a job of its own; {} in -o and --report stands for its name: -o meshes/{}.ply");
 }
@@ -77,8 +77,9 @@ void add_method_options(OptionTable& app, Request& r) {
   app.add_option("--inside-point", r.inside_points, "x,y,z of a point known to be inside; repeatable")
       ->type_name("X,Y,Z");
   app.add_option("--outside-points", r.outside_files, "File of points known to be outside; repeatable")
-      ->type_name("FILE");
-  app.add_option("--inside-points", r.inside_files, "File of points known to be inside; repeatable")->type_name("FILE");
+      ->type_name(file_to_read);
+  app.add_option("--inside-points", r.inside_files, "File of points known to be inside; repeatable")
+      ->type_name(file_to_read);
   app.begin_chapter("Method");
   app.add_option("--crossing-depth", r.crossing_depth,
                  "Where sensors are known: a line of sight crosses what it enters farther than this from its sample; "
@@ -117,7 +118,8 @@ void add_run_options(OptionTable& app, Request& r) {
   app.add_option("--progress", r.progress, "auto, bar, jsonl or off; on stderr")
       ->one_of({"auto", "bar", "jsonl", "off"})
       ->capture_default_str();
-  app.add_option("--dump-stages", r.dump_stages, "Folder for the stages' products as PLY files")->type_name("DIR");
+  app.add_option("--dump-stages", r.dump_stages, "Folder for the stages' products as PLY files")
+      ->type_name(folder_to_write);
   app.add_flag("-q,--quiet", r.quiet, "Print nothing but errors");
 }
 
@@ -192,25 +194,27 @@ void check_place(const std::string& path) {
 
 } // namespace
 
+namespace {
+
+std::vector<std::string> inputs_of(const Request& r) {
+  std::vector<std::string> paths = r.input.paths;
+  for (const auto& more : {std::vector{r.input.scan_index, r.input.sensors}, r.outside_files, r.inside_files})
+    paths.insert(paths.end(), more.begin(), more.end());
+  return paths;
+}
+
+std::vector<std::string> outputs_of(const Request& r) { return {r.output, r.report}; }
+
+} // namespace
+
 void check_outputs(const Request& r, OutputKind kind) {
   namespace fs = std::filesystem;
   for (const std::string& path : {r.output, r.report}) check_place(path);
   check_format(r, kind);
-  std::error_code ignored;
-  std::vector<std::string> inputs = r.input.paths;
-  inputs.push_back(r.input.scan_index);
-  inputs.push_back(r.input.sensors);
-  for (const std::string& path : {r.output, r.report})
-    for (const std::string& input : inputs)
-      if (fs::equivalent(input, path, ignored))
-        throw Error(ErrorKind::usage, path, "the output would overwrite an input", "choose another name");
-  const auto place = [&](const std::string& path) {
-    return fs::weakly_canonical(fs::absolute(real_output(path), ignored), ignored);
-  };
-  if (!r.report.empty() && place(r.output) == place(r.report))
-    throw Error(ErrorKind::usage, r.report, "output and report would be the same file", "choose another name");
+  check_files({inputs_of(r), outputs_of(r), {}});
   for (const std::string& path : {r.output, r.report})
     if (!path.empty() && !is_standard_output(path)) require_writable(path);
+  std::error_code ignored; // whatever it is, the folder cannot be used
   if (r.dump_stages.empty() || fs::is_directory(r.dump_stages, ignored)) return;
   if (!fs::create_directories(r.dump_stages, ignored))
     throw Error(ErrorKind::usage, r.dump_stages, "the folder cannot be created", "choose another one");
@@ -218,8 +222,8 @@ void check_outputs(const Request& r, OutputKind kind) {
 
 MethodRun::MethodRun(const Request& request, std::vector<std::string> command, OutputKind kind)
     : request_(request), command_(std::move(command)) {
+  forget_files();
   check_outputs(request, kind);
-  catch_interrupts();
   observer_ = make_observer(request.progress, request.dump_stages, request.quiet);
   FileStage stage(*observer_, "reading");
   cloud = read_inputs(request.input, read_, [&](double fraction) { stage.progress(fraction); });
@@ -255,18 +259,24 @@ void MethodRun::reconstruct(const Options& options) {
   result.report.warnings.insert(result.report.warnings.begin(), told_.begin(), told_.end());
 }
 
-void MethodRun::finish(const std::function<WriteResult(const std::string&, const WriteOptions&)>& write) {
+void MethodRun::finish(const std::function<WriteResult(OutputFiles&, const std::string&, const WriteOptions&)>& write) {
   Report& report = result.report;
   FileStage stage(*observer_, "writing");
-  const WriteResult written =
-      write(real_output(request_.output), {.spacing = report.spacing,
-                                           .comments = {std::string("made by eigencrust ") + version()},
-                                           .format = request_.format});
+  OutputFiles files;
+  const WriteResult written = write(files, real_output(request_.output),
+                                    {.spacing = report.spacing,
+                                     .comments = {std::string("made by eigencrust ") + version()},
+                                     .format = request_.format});
   report.warnings.insert(report.warnings.end(), written.warnings.begin(), written.warnings.end());
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   report.peak_memory_bytes = peak_memory_bytes();
-  if (!request_.report.empty())
-    write_file_atomically(real_output(request_.report), [&](std::ostream& out) { out << to_json(report) << "\n"; });
+  if (!request_.report.empty()) {
+    const std::string text = to_json(report) + "\n";
+    files.add(real_output(request_.report), [&](std::ostream& out) { out << text; });
+  }
+  Commit commit;
+  files.put_in_place();
+  commit.done(report.broken_guarantees.empty() ? 0 : static_cast<int>(ErrorKind::guarantee));
   stage.end();
   clear_progress();
   if (request_.quiet) return;

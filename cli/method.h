@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 
 #include "command.h"
@@ -61,8 +62,9 @@ class MethodRun {
   Result result; ///< after reconstruct()
   /// Warns at once of what need not wait for the end.
   void reconstruct(const Options& options);
-  /// Writes the result with `write`, then the report, and prints the warnings. \throws Error{cancelled}
-  void finish(const std::function<WriteResult(const std::string&, const WriteOptions&)>& write);
+  /// Lets `write` prepare the output, notes what it said, adds the report, puts both in their places and prints the
+  /// warnings. Whatever fails before, no file appears. \throws Error{cancelled}
+  void finish(const std::function<WriteResult(OutputFiles&, const std::string&, const WriteOptions&)>& write);
   /// Where the summary goes: not where the result goes, nor among lines of JSON.
   [[nodiscard]] std::ostream& summary() const;
   /// Seconds and memory for the line of summary.

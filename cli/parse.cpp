@@ -7,6 +7,21 @@
 #include "help.h"
 
 namespace eigencrust::cli {
+namespace {
+
+/// What an option does with a file is said by the type of its value. A shape may be a file, too.
+NamedFiles files_of(const std::vector<Given>& given) {
+  NamedFiles files;
+  for (const auto& [option, name, value] : given) {
+    const std::string& type = option->value_name();
+    if (type == file_to_read || type == shape_or_file) files.read.push_back(value);
+    if (type == file_to_write) files.written.push_back(value);
+    if (type == folder_to_write) files.folders.push_back(value);
+  }
+  return files;
+}
+
+} // namespace
 
 Parsed parse(OptionTable& table, const Arguments& arguments) {
   bool help = false, help_all = false;
@@ -17,7 +32,7 @@ Parsed parse(OptionTable& table, const Arguments& arguments) {
   table
       .add_option("--config", configs,
                   "Take options from a TOML file: option = value; those of the command line go before it")
-      ->type_name("FILE");
+      ->type_name(file_to_read);
   if (arguments.describe) {
     arguments.describe(table);
     return {true, 0, {}};
@@ -32,7 +47,9 @@ Parsed parse(OptionTable& table, const Arguments& arguments) {
     return {true, 0, {}};
   }
   const std::vector<std::string> words = with_config(table, arguments.words);
-  table.set(table.scan(words));
+  const std::vector<Given> given = table.scan(words);
+  table.set(given);
+  check_files(files_of(given));
   Parsed parsed{false, 0, arguments.command};
   if (words != arguments.words && arguments.command.size() >= arguments.words.size()) {
     parsed.command.resize(arguments.command.size() - arguments.words.size());

@@ -47,9 +47,11 @@ int write_points(MethodRun& run, const Request& request, const std::string& keep
     run.cloud.attributes.push_back(make_attribute("scan_index", run.cloud.scan_index));
     run.cloud.scan_index.clear();
   }
-  run.finish([&](const std::string& path, const WriteOptions& how) { return write_point_cloud(path, run.cloud, how); });
+  run.finish([&](OutputFiles& files, const std::string& path, const WriteOptions& how) {
+    return files.add_point_cloud(path, run.cloud, how);
+  });
   std::ostream& out = run.summary();
-  out << request.output << ": " << grouped(run.cloud.points.size()) << " points in " << run.cost() << "\n"
+  out << printable(request.output) << ": " << grouped(run.cloud.points.size()) << " points in " << run.cost() << "\n"
       << run.selection() << "  " << grouped(inliers.size()) << " inliers, "
       << grouped(report.points - report.nonfinite - inliers.size()) << " outliers";
   if (report.nonfinite > 0) out << ", " << grouped(report.nonfinite) << " not finite";

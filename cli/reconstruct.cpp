@@ -55,10 +55,12 @@ int reconstruct(const Request& request, const std::vector<std::string>& command)
   const Options options = effective_options(request);
   MethodRun run(request, command, OutputKind::mesh);
   run.reconstruct(options);
-  run.finish([&](const std::string& path, const WriteOptions& how) { return write_mesh(path, run.result.mesh, how); });
+  run.finish([&](OutputFiles& files, const std::string& path, const WriteOptions& how) {
+    return files.add_mesh(path, run.result.mesh, how);
+  });
   const Report& report = run.result.report;
   std::ostream& out = run.summary();
-  out << request.output << ": " << grouped(report.points) << " points in " << run.cost() << "\n"
+  out << printable(request.output) << ": " << grouped(report.points) << " points in " << run.cost() << "\n"
       << run.selection() << describe(report.mesh);
   if (report.one_sided)
     out << "  one-sided scan: every line of sight is within "

@@ -12,10 +12,8 @@ namespace {
 
 /// A file with triangles is drawn as a mesh, any other cloud as points.
 TriangleMesh read_anything(const std::string& path, bool as_points) {
-  if (!as_points && can_write_mesh(path)) { // formats that may hold triangles
-    TriangleMesh mesh = read_mesh(path);
-    if (!mesh.triangles.empty()) return mesh;
-  }
+  // Formats that may hold triangles; where there are none, the vertices are drawn. A pipe is read but once.
+  if (!as_points && can_write_mesh(path)) return read_mesh(path);
   PointCloud cloud = read_point_cloud(path);
   TriangleMesh points;
   points.vertices = std::move(cloud.points);
@@ -34,8 +32,10 @@ struct Request {
 void add_options(OptionTable& app, Request& r) {
   RenderOptions& options = r.options;
   app.begin_chapter("Picture");
-  app.add_option("MESH", r.inputs, "Mesh or point cloud; several are put side by side, in one frame")->required();
-  app.add_option("-o,--output", r.output, "PNG to write")->required()->type_name("FILE");
+  app.add_option("MESH", r.inputs, "Mesh or point cloud; several are put side by side, in one frame")
+      ->required()
+      ->type_name(file_to_read);
+  app.add_option("-o,--output", r.output, "PNG to write")->required()->type_name(file_to_write);
   app.add_option("--width", options.width, "Pixels, of each of several pictures")->capture_default_str();
   app.add_option("--height", options.height, "Pixels, of each of several pictures")->capture_default_str();
   app.begin_chapter("Camera");

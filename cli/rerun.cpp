@@ -73,8 +73,8 @@ int rerun_verb(const Arguments& arguments) {
   OptionTable app("The run that a report tells of, once more. Its inputs have to be the same, bit by bit.",
                   "eigencrust rerun");
   app.add_option("REPORT", path, "JSON file that --report wrote")->required();
-  app.add_option("-o,--output", output, "Where the result goes [as in the run]")->type_name("FILE");
-  app.add_option("--report", report_path, "Write a report of this run [none]")->type_name("FILE");
+  app.add_option("-o,--output", output, "Where the result goes [as in the run]")->type_name(file_to_write);
+  app.add_option("--report", report_path, "Write a report of this run [none]")->type_name(file_to_write);
   if (const Parsed parsed = parse(app, arguments); parsed.done) return parsed.status;
   const Json report = read_report(path);
   std::vector<std::string> words = words_of(report, path);

@@ -12,6 +12,7 @@
 #include "io/colmap.h"
 #include "io/formats.h"
 #include "io/sensor_columns.h"
+#include "io/sha256.h"
 #include "io/text.h"
 
 namespace eigencrust {
@@ -166,11 +167,17 @@ const Format& format_for_reading(const FileContent& file, bool mesh_wanted) {
   return *format;
 }
 
-/// From the files that COLMAP writes beside a fused cloud.
-void add_colmap_sensors(const std::filesystem::path& path, PointCloud& cloud, Notes& notes) {
+/// The visibility that COLMAP writes beside a fused cloud; empty where there is none.
+std::filesystem::path visibility_of(const std::filesystem::path& path) {
   const std::filesystem::path visibility = path.string() + ".vis";
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(visibility, ignored)) return;
+  return std::filesystem::is_regular_file(visibility, ignored) ? visibility : std::filesystem::path();
+}
+
+/// From the files that COLMAP writes beside a fused cloud.
+void add_colmap_sensors(const std::filesystem::path& path, PointCloud& cloud, Notes& notes) {
+  const std::filesystem::path visibility = visibility_of(path);
+  if (visibility.empty()) return;
   const auto images = io::find_colmap_images(path);
   if (!images) {
     notes.push_back(visibility.filename().string() +
@@ -233,11 +240,22 @@ PointCloud io::read_cloud(const FileContent& file, const ReadOptions& options, N
 
 TriangleMesh io::read_mesh(const FileContent& file) { return format_for_reading(file, true).read_mesh(file); }
 
-PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options, Notes* notes) {
+std::vector<std::filesystem::path> companion_files(const std::filesystem::path& path) {
+  const std::filesystem::path visibility = visibility_of(path);
+  if (visibility.empty()) return {};
+  std::vector<std::filesystem::path> files{visibility};
+  if (const auto images = io::find_colmap_images(path)) files.push_back(*images);
+  return files;
+}
+
+PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options, Notes* notes,
+                            std::string* sha256) {
   try {
     Notes unused;
     Notes& said = notes == nullptr ? unused : *notes;
-    PointCloud cloud = io::read_cloud(FileContent(path), options, said);
+    const FileContent file(path);
+    if (sha256 != nullptr) *sha256 = io::sha256_of(file);
+    PointCloud cloud = io::read_cloud(file, options, said);
     if (options.sensors && cloud.sensors.empty()) add_colmap_sensors(path, cloud, said);
     return cloud;
   } catch (const std::bad_alloc&) {
@@ -257,17 +275,19 @@ TriangleMesh read_mesh(const std::filesystem::path& path) {
   }
 }
 
-WriteResult write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options) {
+WriteResult OutputFiles::add_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
+                                  const WriteOptions& options) {
   const Format* format = format_for_writing(path, options.format);
   if (format == nullptr || format->write_mesh == nullptr) fail_extension(path, true);
   check_mesh(mesh);
   WriteResult result;
   const Body body = format->write_mesh(mesh, options, result);
-  write_file_atomically(path, body);
+  add(path, body);
   return result;
 }
 
-WriteResult write_point_cloud(const std::filesystem::path& path, const PointCloud& cloud, const WriteOptions& options) {
+WriteResult OutputFiles::add_point_cloud(const std::filesystem::path& path, const PointCloud& cloud,
+                                         const WriteOptions& options) {
   const Format* format = format_for_writing(path, options.format);
   if (format == nullptr || format->write_cloud == nullptr) fail_extension(path, false);
   io::check_attributes(cloud.attributes, cloud.points.size(), "point");
@@ -277,7 +297,21 @@ WriteResult write_point_cloud(const std::filesystem::path& path, const PointClou
   const bool has_viewpoint = format->extension == "pcd" && io::viewpoint_of(cloud);
   if (!cloud.sensors.empty() && !has_viewpoint && !columns_tell_sensors(cloud))
     result.warnings.emplace_back("the sensors of the points are not written");
-  write_file_atomically(path, body);
+  add(path, body);
+  return result;
+}
+
+WriteResult write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options) {
+  OutputFiles files;
+  WriteResult result = files.add_mesh(path, mesh, options);
+  files.put_in_place();
+  return result;
+}
+
+WriteResult write_point_cloud(const std::filesystem::path& path, const PointCloud& cloud, const WriteOptions& options) {
+  OutputFiles files;
+  WriteResult result = files.add_point_cloud(path, cloud, options);
+  files.put_in_place();
   return result;
 }
 

@@ -7,17 +7,16 @@
 #include <eigencrust/error.h>
 #include <eigencrust/io.h>
 
-#include "io/file_content.h"
+#include "io/sha256.h"
 
 namespace eigencrust {
 
-std::string sha256_of_file(const std::filesystem::path& path) {
-  const io::FileContent file(path);
+std::string io::sha256_of(const FileContent& file) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned size = 0;
   const std::string_view bytes = file.bytes();
   if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1)
-    throw Error(ErrorKind::input, path.string(), "the SHA-256 of the file cannot be computed", "check OpenSSL");
+    throw Error(ErrorKind::input, file.name(), "the SHA-256 of the file cannot be computed", "check OpenSSL");
   static constexpr char digits[] = "0123456789abcdef";
   std::string text;
   for (unsigned i = 0; i < size; ++i) {
@@ -26,5 +25,7 @@ std::string sha256_of_file(const std::filesystem::path& path) {
   }
   return text;
 }
+
+std::string sha256_of_file(const std::filesystem::path& path) { return io::sha256_of(io::FileContent(path)); }
 
 } // namespace eigencrust

@@ -12,8 +12,6 @@
 #include <eigencrust/error.h>
 #include <eigencrust/io.h>
 
-#include "io/link_target.h"
-
 namespace eigencrust {
 namespace {
 
@@ -61,7 +59,7 @@ void require_writable(const std::filesystem::path& path) {
     if (access(path.c_str(), W_OK) != 0) fail(path, "the file is write-protected", errno, "write to another file");
     if (!S_ISREG(status.st_mode)) return; // devices and pipes are written through
   }
-  const fs::path target = io::follow_links(path);
+  const fs::path target = follow_links(path);
   constexpr std::size_t longest_name = 255; // of all file systems in use
   if (target.filename().native().size() > longest_name)
     fail(path, "the name is longer than file systems allow", ENAMETOOLONG, "choose a shorter one");

@@ -21,7 +21,9 @@ namespace {
 constexpr double bytes_of_the_program = 12e6;
 constexpr double bytes_per_point = 1050; ///< distinct ones, coordinates included
 constexpr double bytes_per_other = 60;   ///< rows that are no sample of their own
-constexpr double copies_of_further = 2;  ///< attributes of the cloud and of the mesh
+// Of all stages, per tetrahedron: seven of them for a point.
+constexpr double bytes_per_tetrahedron = bytes_per_point / 7;
+constexpr double copies_of_further = 2; ///< attributes of the cloud and of the mesh
 constexpr double seconds_per_point = 2.7e-5;
 
 constexpr std::uint64_t unknown = std::numeric_limits<std::uint64_t>::max();
@@ -157,6 +159,17 @@ void check_memory(const PointCloud& cloud, std::uint64_t limit) {
                   ", exceeds the limit of " + describe_bytes(limit),
               "raise --max-memory to " + std::to_string(needed / 1'000'000 + 1) + "M or give fewer points, about " +
                   std::to_string(points_within(limit, further)) + " fit");
+}
+
+void check_memory_of_tetrahedra(std::uint64_t tetrahedra, std::uint64_t further, std::uint64_t limit) {
+  if (limit == 0) return;
+  const auto needed = whole(bytes_of_the_program + bytes_per_tetrahedron * static_cast<double>(tetrahedra) +
+                            copies_of_further * static_cast<double>(further));
+  if (needed <= limit) return;
+  throw Error(ErrorKind::memory, "delaunay",
+              "the samples have " + std::to_string(tetrahedra) +
+                  " tetrahedra already, many more than usual: more than " + describe_bytes(limit) + " are needed",
+              "raise --max-memory, or give fewer points; noise or stray points far from the surface can be the reason");
 }
 
 std::uint64_t available_memory_bytes(const std::filesystem::path& root) {

@@ -13,6 +13,7 @@
 #include "parallel/threads.h"
 #include "surface/components.h"
 #include "surface/drop_triangles.h"
+#include "surface/shells.h"
 
 namespace eigencrust {
 namespace {
@@ -55,8 +56,9 @@ void measure(const Surface& surface, const SampleModel& model, std::uint32_t num
   }
 }
 
-std::vector<Piece> measure_pieces(const Surface& surface, const SampleModel& model, const Threads& threads) {
-  const std::vector<std::uint32_t> component = triangle_components(surface.mesh, threads.size());
+/// \param component of each triangle
+std::vector<Piece> measure_pieces(const Surface& surface, std::span<const std::uint32_t> component,
+                                  const SampleModel& model) {
   std::vector<Piece> pieces;
   for (std::uint32_t i = 0; i < component.size(); ++i) {
     if (component[i] >= pieces.size()) pieces.resize(component[i] + 1);
@@ -143,9 +145,11 @@ void drop_triangles(std::span<const std::uint8_t> gone, Surface& surface) {
 
 std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComponents& keep,
                                                 const Tetrahedralization& t, const SampleModel& model,
-                                                const Threads& threads) {
-  const std::vector<Piece> pieces = measure_pieces(surface, model, threads);
-  const std::vector<std::uint8_t> kept = choose(surface, pieces, keep);
+                                                const Labels& labels, const Threads& threads) {
+  const std::vector<std::uint32_t> component = triangle_components(surface.mesh, threads.size());
+  const std::vector<Piece> pieces = measure_pieces(surface, component, model);
+  std::vector<std::uint8_t> kept = choose(surface, pieces, keep);
+  keep_shells(surface, component, t, labels, kept);
   std::vector<DroppedComponent> dropped;
   std::vector<std::uint8_t> gone(surface.mesh.triangles.size(), 0);
   for (std::size_t c = 0; c < pieces.size(); ++c) {

@@ -18,7 +18,7 @@
 #include "geometry/predicates.h"
 #include "geometry/tetrahedron.h"
 #include "parallel/compressed_rows.h"
-#include "tetrahedra/delaunay.h"
+#include "tetrahedra/growth.h"
 
 namespace eigencrust {
 namespace {
@@ -35,15 +35,18 @@ constexpr double share_of_insertion = 0.85;
 // "Much wider than the cloud" (§3): no sample may lie near a side.
 constexpr double cube_half_side_in_diagonals = 10;
 
+// A sample among thousands of tetrahedra takes a thousandth of a second, any other a thousandth of that.
+constexpr std::uint32_t samples_between_looks = 32;
+
 /// In random rounds, each four times as large as the one before and along the Hilbert curve (BRIO; Amenta, Choi, Rote
 /// 2003).
 void insert_all(Delaunay& delaunay, const IndexedArray<SampleIndex, Vec3>& positions, std::uint32_t samples,
-                const Checkpoint& checkpoint) {
-  constexpr std::uint32_t between_checkpoints = 4096; // insertions: some milliseconds
+                const WatchGrowth& watch) {
   Delaunay::Cell_handle hint;
   std::uint32_t done = 0;
   const auto insert = [&](std::uint32_t i) {
-    if (++done % between_checkpoints == 0) checkpoint(share_of_insertion * done / positions.size());
+    if (watch && ++done % samples_between_looks == 0)
+      watch(share_of_insertion * done / positions.size(), delaunay.tds().number_of_cells());
     const Vec3& p = positions.raw()[i];
     const Delaunay::Vertex_handle v = delaunay.insert({p.x, p.y, p.z}, hint);
     v->info() = i;
@@ -133,11 +136,11 @@ void sort_tetrahedra(Tetrahedralization& t, const Threads& threads) {
 } // namespace
 
 Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const std::function<void()>& beside) {
-  return tetrahedralize(std::move(samples), threads, beside, [](double) {});
+  return tetrahedralize(std::move(samples), threads, beside, {});
 }
 
 Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const std::function<void()>& beside,
-                                  const Checkpoint& checkpoint) {
+                                  const WatchGrowth& watch) {
   const int dimension = affine_dimension(samples.positions.raw());
   if (dimension <= 2)
     throw Error(ErrorKind::input, "delaunay", dimension < 2 ? "all points are collinear" : "all points are coplanar",
@@ -154,21 +157,17 @@ Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const
       for (const double z : {-h, h}) result.positions.raw().push_back(middle + Vec3{x, y, z});
   auto engine = std::make_unique<Delaunay>();
   Delaunay& delaunay = *engine;
-  // The first block is the caller's wherever it has a free hand; an observer hears of no other thread.
-  const Checkpoint of_caller = [&, caller = std::this_thread::get_id()](double fraction) {
-    if (std::this_thread::get_id() == caller) checkpoint(fraction);
-  };
   threads.run(beside ? 2 : 1, [&](std::size_t task) {
     if (task == 0)
-      insert_all(delaunay, result.positions, result.sample_count, of_caller);
+      insert_all(delaunay, result.positions, result.sample_count, watch);
     else
       beside();
   });
   if (delaunay.number_of_vertices() != result.positions.size())
     throw Error(ErrorKind::guarantee, "delaunay", "a sample was lost", "report this as a fault of the program");
-  checkpoint(share_of_insertion);
+  if (watch) watch(share_of_insertion, delaunay.tds().number_of_cells());
   copy_cells(delaunay, result, threads);
-  checkpoint((1 + share_of_insertion) / 2);
+  if (watch) watch((1 + share_of_insertion) / 2, result.tetrahedra.size());
   engine.reset(); // its half a kilobyte per sample is not needed beside ours
   sort_tetrahedra(result, threads);
   return result;

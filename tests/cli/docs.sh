@@ -39,6 +39,42 @@ test_every_option_is_in_the_docs() {
   done <options
 }
 
+# promises PAGE: `promise|test test ...` of the table under the heading; marks are taken off.
+promises() {
+  awk -F ' *[|] *' '/^## / { on = $0 ~ /Which test holds which promise/ }
+    on && /^\|/ && !/^\|-/ && $2 != "promise" { print $2 "|" $3 }' "$1"
+}
+
+# is_there NAME: Suite.Name of GoogleTest, cli.group.case, or a file of the project.
+is_there() {
+  case $1 in
+    cli.*)
+      local group=${1#cli.}
+      grep -qx "test_${group#*.}() {" "$repository/tests/cli/${group%%.*}.sh"
+      ;;
+    */*) [ -f "$repository/$1" ] ;;
+    *.*) grep -rqE "^TEST(_F|_P)?\\(${1%%.*}, ${1#*.}\\)" "$repository/tests" --include='*.cpp' ;;
+    *) return 1 ;;
+  esac
+}
+
+test_every_promise_has_its_test() {
+  local page=$repository/docs/guarantees.md promise tests test count=0
+  promises "$page" >promises
+  [ "$(wc -l <promises)" -ge 30 ] || die "only $(wc -l <promises) promises"
+  while IFS='|' read -r promise tests; do
+    [ -n "$tests" ] || die "'$promise' has no test"
+    # shellcheck disable=SC2001
+    for test in $(echo "$tests" | tr -d '`'); do
+      is_there "$test" || die "'$promise': there is no test $test"
+      count=$((count + 1))
+    done
+  done <promises
+  echo "$count tests of $(wc -l <promises) promises"
+  # The check itself sees what is missing.
+  ! is_there Shells.NoSuchTest && ! is_there cli.faults.no_such_test && ! is_there fuzz/none.cpp || die "is_there() is blind"
+}
+
 # Not only rows: any --word of the page.
 test_every_option_of_the_docs_exists() {
   local page=$repository/docs/parameters.md name verb

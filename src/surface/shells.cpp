@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/shells.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "geometry/mesh_topology.h"
+#include "geometry/signed_volume.h"
+
+namespace eigencrust {
+namespace {
+
+/// Bodies and hollows: what hangs together on one side.
+class Regions {
+ public:
+  Regions(const Tetrahedralization& t, const Labels& labels) : sets_(t.tetrahedra.size()) {
+    for (TetrahedronIndex i{0}; i.value < t.tetrahedra.size(); ++i.value)
+      for (const TetrahedronIndex n : t.neighbours[i])
+        if (n.valid() && n < i && labels[n] == labels[i]) sets_.unite(n.value, i.value);
+    depth_.assign(t.tetrahedra.size(), beyond);
+    for (TetrahedronIndex i{0}; i.value < t.tetrahedra.size(); ++i.value)
+      if (t.touches_cube(i)) depth_[sets_.find(i.value)] = 0;
+  }
+
+  std::uint32_t at(TetrahedronIndex i) { return sets_.find(i.value); }
+  /// How many walls lie between the region and the cube.
+  std::uint32_t& depth(std::uint32_t region) { return depth_[region]; }
+
+  static constexpr std::uint32_t beyond = std::numeric_limits<std::uint32_t>::max();
+
+ private:
+  DisjointSets sets_;
+  std::vector<std::uint32_t> depth_;
+};
+
+/// What lies on either side of a piece.
+struct Wall {
+  std::uint32_t inside = 0, outside = 0, triangles = 0;
+};
+
+TetrahedronIndex across(const Tetrahedralization& t, const Surface& surface, std::size_t triangle) {
+  const auto& v = surface.mesh.triangles[triangle];
+  const TetrahedronIndex inside = surface.inside[triangle];
+  for (std::size_t k = 0; k < t.tetrahedra[inside].size(); ++k)
+    if (std::none_of(v.begin(), v.end(),
+                     [&](std::uint32_t corner) { return surface.sample_of[corner] == t.tetrahedra[inside][k]; }))
+      return t.neighbours[inside][k];
+  return {};
+}
+
+std::vector<Wall> walls_of(const Surface& surface, std::span<const std::uint32_t> piece, std::size_t pieces,
+                           const Tetrahedralization& t, Regions& regions) {
+  std::vector<Wall> walls(pieces);
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    Wall& wall = walls[piece[i]];
+    if (wall.triangles++ == 0) wall = {regions.at(surface.inside[i]), regions.at(across(t, surface, i)), 1};
+  }
+  return walls;
+}
+
+/// Is there a kept piece whose volume is not surely positive? Mostly there is none.
+bool may_look_inward(const Surface& surface, std::span<const std::uint32_t> piece, std::span<const std::uint8_t> kept) {
+  std::vector<SignedVolume> volume(kept.size());
+  std::vector<std::uint32_t> first(kept.size(), no_index);
+  const auto& places = surface.mesh.vertices;
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    const auto& [a, b, c] = surface.mesh.triangles[i];
+    if (first[piece[i]] == no_index) first[piece[i]] = a;
+    const Vec3& origin = places[first[piece[i]]];
+    volume[piece[i]].add(places[a] - origin, places[b] - origin, places[c] - origin);
+  }
+  for (std::size_t c = 0; c < kept.size(); ++c)
+    if (kept[c] && volume[c].known() <= 0) return true;
+  return false;
+}
+
+/// From the cube inwards.
+void measure_depths(std::span<const Wall> walls, Regions& regions) {
+  for (bool changed = true; changed;) { // rounds are as many as regions lie within one another
+    changed = false;
+    for (const Wall& wall : walls)
+      for (const auto& [from, to] : {std::pair{wall.inside, wall.outside}, std::pair{wall.outside, wall.inside}}) {
+        const std::uint32_t depth = regions.depth(from);
+        if (depth == Regions::beyond || regions.depth(to) <= depth + 1) continue;
+        regions.depth(to) = depth + 1;
+        changed = true;
+      }
+  }
+}
+
+} // namespace
+
+void keep_shells(const Surface& surface, std::span<const std::uint32_t> piece, const Tetrahedralization& t,
+                 const Labels& labels, std::vector<std::uint8_t>& kept) {
+  if (!may_look_inward(surface, piece, kept)) return;
+  Regions regions(t, labels);
+  const std::vector<Wall> walls = walls_of(surface, piece, kept.size(), t, regions);
+  measure_depths(walls, regions);
+  const auto is_cavity = [&](const Wall& wall) { return regions.depth(wall.inside) < regions.depth(wall.outside); };
+  for (std::size_t c = 0; c < walls.size(); ++c) {
+    if (!kept[c] || !is_cavity(walls[c])) continue;
+    // The one shell; a body that is open at the back of a scan may have several, of which the largest will do.
+    std::size_t shell = walls.size();
+    for (std::size_t s = 0; s < walls.size(); ++s)
+      if (walls[s].inside == walls[c].inside && !is_cavity(walls[s]) &&
+          (shell == walls.size() || kept[s] > kept[shell] ||
+           (kept[s] == kept[shell] && walls[s].triangles > walls[shell].triangles)))
+        shell = s;
+    if (shell == walls.size())
+      kept[c] = 0;
+    else
+      kept[shell] = 1;
+  }
+}
+
+} // namespace eigencrust
