@@ -28,7 +28,23 @@ void add_output_options(OptionTable& app, Request& r, const std::string& what) {
                "Each input is a job of its own; {} in -o and --report stands for its name: -o meshes/{}.ply");
 }
 
+namespace {
+
+void add_named_points(OptionTable& app, Request& r) {
+  app.begin_chapter("What is known beforehand");
+  app.add_option("--outside-point", r.outside_points, "x,y,z of a point known to be outside; repeatable")
+      ->type_name("X,Y,Z");
+  app.add_option("--inside-point", r.inside_points, "x,y,z of a point known to be inside; repeatable")
+      ->type_name("X,Y,Z");
+  app.add_option("--outside-points", r.outside_files, "File of points known to be outside; repeatable")
+      ->type_name(file_to_read);
+  app.add_option("--inside-points", r.inside_files, "File of points known to be inside; repeatable")->type_name(file_to_read);
+}
+
+} // namespace
+
 void add_method_options(OptionTable& app, Request& r) {
+  add_named_points(app, r);
   app.begin_chapter("Method");
   const Options robust = Options::of(Preset::robust), paper = Options::of(Preset::paper);
   app.add_option("--preset", r.preset,
@@ -71,16 +87,6 @@ void add_method_options(OptionTable& app, Request& r) {
                  "Pieces to keep: supported, all, largest or a number" +
                      defaults(to_string(robust.components), to_string(paper.components)))
       ->type_name("KEEP");
-  app.begin_chapter("What is known beforehand");
-  app.add_option("--outside-point", r.outside_points, "x,y,z of a point known to be outside; repeatable")
-      ->type_name("X,Y,Z");
-  app.add_option("--inside-point", r.inside_points, "x,y,z of a point known to be inside; repeatable")
-      ->type_name("X,Y,Z");
-  app.add_option("--outside-points", r.outside_files, "File of points known to be outside; repeatable")
-      ->type_name(file_to_read);
-  app.add_option("--inside-points", r.inside_files, "File of points known to be inside; repeatable")
-      ->type_name(file_to_read);
-  app.begin_chapter("Method");
   app.add_option("--crossing-depth", r.crossing_depth,
                  "Where sensors are known: a line of sight crosses what it enters farther than this from its sample; "
                  "auto or a length" +
