@@ -3,6 +3,9 @@
 // or an Error of a documented kind. To be built with sanitizers.
 // Usage: fuzz_method FIRST_SEED COUNT      runs so many, one line for each finding, a table at the end
 //        fuzz_method show SEED             the cloud of a seed as x y z, its options on stderr
+#include <unistd.h>
+
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -78,6 +81,26 @@ Outcome outcome_of(RandomRun& run, std::uint64_t seed) {
   }
 }
 
+// A run that hangs is a finding, too; a handler can reach nothing but what has static storage.
+volatile std::sig_atomic_t running_low = 0, running_high = 0;
+
+void on_hang(int) {
+  const auto seed = static_cast<std::uint64_t>(static_cast<std::uint32_t>(running_high)) << 31 |
+                    static_cast<std::uint32_t>(running_low);
+  char text[100];
+  const int size = std::snprintf(text, sizeof text, "seed %llu: hangs\n", static_cast<unsigned long long>(seed));
+  [[maybe_unused]] const ssize_t ignored = write(STDOUT_FILENO, text, static_cast<std::size_t>(size));
+  _exit(1);
+}
+
+void watch(std::uint64_t seed) {
+  constexpr unsigned patience = 120; // seconds; under sanitizers a run takes one
+  running_low = static_cast<std::sig_atomic_t>(seed & 0x7fffffffu);
+  running_high = static_cast<std::sig_atomic_t>(seed >> 31 & 0x7fffffffu);
+  std::signal(SIGALRM, on_hang);
+  alarm(patience);
+}
+
 int show(std::uint64_t seed) {
   const RandomRun run = fuzz::random_run(seed);
   std::fprintf(stderr, "%s\n%s\n", run.shape.c_str(), fuzz::describe(run.options).c_str());
@@ -100,6 +123,7 @@ int main(int argc, char** argv) {
     RandomRun run = fuzz::random_run(seed);
     if (std::getenv("EIGENCRUST_FUZZ_VERBOSE") != nullptr)
       std::fprintf(stderr, "seed %llu\n", static_cast<unsigned long long>(seed));
+    watch(seed);
     const Outcome outcome = outcome_of(run, seed);
     ++outcomes[outcome.name];
     if (outcome.finding.empty()) continue;

@@ -76,7 +76,7 @@ documented() {
   esac
   if [ "$1" -ne 0 ] && [ "$1" -ne 6 ] && ! cmp -s run/mesh.ply old.ply; then found "$2: status $1 with a new mesh"; fi
 }
-row() { printf '| %s | %d | %d | %d |\n' "$1" "$2" "$(($2 - here))" "$here" >>table; }
+row() { printf '| %s | %d | %d | %d |\n' "$1" "$2" "$(($2 - here))" "$here" | tee -a table >&2; }
 printf '| what | tried | survived | faults |\n|---|---|---|---|\n' >table
 
 # run_small LIBRARY-SETTINGS...: one run of the small cloud under the preloaded library; its status in $status.

@@ -109,9 +109,10 @@ class PaperRepair {
   bool join_two_outside_components() {
     if (star_.components(labels_.labels(), Label::outside, SampleIndex{}, component_) < 2) return false;
     const auto length = [&](std::uint32_t i) { return static_cast<double>(magnitude(i)); };
-    for (const std::uint32_t i : shortest_path(star_, component_, length)) set_outside(i);
-    ++counts_.vertices;
-    return true;
+    const std::vector<std::uint32_t> path = shortest_path(star_, component_, length);
+    for (const std::uint32_t i : path) set_outside(i);
+    counts_.vertices += !path.empty();
+    return !path.empty(); // without a way there is nothing to be done here
   }
 
   const Tetrahedralization& t_;

@@ -14,7 +14,9 @@ namespace {
 double face_weight(const Tetrahedralization& t, const std::array<SampleIndex, 4>& v, std::size_t k) {
   const Vec3 &a = t.positions[v[(k + 1) % 4]], &b = t.positions[v[(k + 2) % 4]], &c = t.positions[v[(k + 3) % 4]];
   const double ab = squared_norm(a - b), bc = squared_norm(b - c), ca = squared_norm(c - a);
-  return std::sqrt(std::max({ab, bc, ca}) / std::min({ab, bc, ca}));
+  // Sums of weights stay numbers, in 32 bits, where one edge is 1e40 times as long as another.
+  constexpr double most = 1e15;
+  return std::min(most, std::sqrt(std::max({ab, bc, ca}) / std::min({ab, bc, ca})));
 }
 
 } // namespace

@@ -55,6 +55,19 @@ std::vector<Piece> measure_pieces(const std::vector<Vec3>& before, const Triangl
   return pieces;
 }
 
+/// Has a coarse shell shrunk so far that less is within it than within its cavities? Of open meshes nothing is said.
+bool whole_turned(const std::vector<Vec3>& before, const TriangleMesh& mesh, std::span<const Side> sides) {
+  bool open = false;
+  for_each_edge(sides, [&](std::span<const Side> edge) { open = open || edge.size() == 1; });
+  if (open) return false;
+  SignedVolume then, now;
+  for (const Triangle& t : mesh.triangles) {
+    add_to(then, before, t, before[mesh.triangles[0][0]]);
+    add_to(now, mesh.vertices, t, mesh.vertices[mesh.triangles[0][0]]);
+  }
+  return then.known() >= 0 && now.known() < 0;
+}
+
 } // namespace
 
 TurnedOver take_back_turned(const std::vector<Vec3>& before, TriangleMesh& mesh, const Threads& threads) {
@@ -71,6 +84,10 @@ TurnedOver take_back_turned(const std::vector<Vec3>& before, TriangleMesh& mesh,
       if (!taken_back[p]) taken_back[p] = changed = true;
       for (const std::uint32_t v : mesh.triangles[i]) mesh.vertices[v] = before[v];
     }
+  }
+  if (whole_turned(before, mesh, sides)) {
+    mesh.vertices = before;
+    return {taken_back.size()};
   }
   return {static_cast<std::uint64_t>(std::count(taken_back.begin(), taken_back.end(), 1))};
 }

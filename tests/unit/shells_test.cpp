@@ -118,6 +118,17 @@ TEST(TurnedOver, WhatIsFlatGoesBackToo) {
   EXPECT_EQ(mesh.vertices, before);
 }
 
+TEST(TurnedOver, ACoarseShellThatShrinksBelowItsCavityGoesBack) {
+  TriangleMesh mesh = octahedron({0, 0, 0}, 1);
+  const TriangleMesh cavity = octahedron({0.01, 0, 0}, 0.9);
+  for (const auto& [a, b, c] : cavity.triangles) mesh.triangles.push_back({b + 6, a + 6, c + 6});
+  mesh.vertices.insert(mesh.vertices.end(), cavity.vertices.begin(), cavity.vertices.end());
+  const std::vector<Vec3> before = mesh.vertices;
+  for (std::size_t v = 0; v < 6; ++v) mesh.vertices[v] = 0.5 * mesh.vertices[v];
+  EXPECT_EQ(take_back_turned(before, mesh, Threads(1)).pieces, 2u);
+  EXPECT_EQ(mesh.vertices, before);
+}
+
 TEST(TurnedOver, TheWallOfACavityMayShrink) {
   TriangleMesh mesh = octahedron({0, 0, 0}, 1);
   for (auto& t : mesh.triangles) std::swap(t[0], t[1]);
