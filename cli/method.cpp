@@ -38,7 +38,8 @@ void add_named_points(OptionTable& app, Request& r) {
       ->type_name("X,Y,Z");
   app.add_option("--outside-points", r.outside_files, "File of points known to be outside; repeatable")
       ->type_name(file_to_read);
-  app.add_option("--inside-points", r.inside_files, "File of points known to be inside; repeatable")->type_name(file_to_read);
+  app.add_option("--inside-points", r.inside_files, "File of points known to be inside; repeatable")
+      ->type_name(file_to_read);
 }
 
 } // namespace
