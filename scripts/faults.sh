@@ -69,7 +69,7 @@ documented() {
   case $1 in
     0) ;;
     2 | 3 | 4 | 5 | 6 | 130)
-      [ "$(grep -c '^eigencrust: error: ' err)" -ge 1 ] || found "$2: status $1 without a message"
+      [ "$(grep -cE '^eigencrust: error: |"event":"error"' err)" -ge 1 ] || found "$2: status $1 without a message"
       ! grep -q '(internal)' err || found "$2: an error that is called internal"
       ;;
     *) found "$2: status $1" ;;
