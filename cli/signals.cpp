@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "signals.h"
 
-#include <cxxabi.h>
 #include <unistd.h>
 
 #include <array>
@@ -9,12 +8,14 @@
 #include <csignal>
 #include <ctime>
 #include <exception>
+#include <initializer_list>
 #include <new>
 #include <string_view>
-#include <typeinfo>
 
 #include <eigencrust/error.h>
 #include <eigencrust/io.h>
+
+#include "messages.h"
 
 namespace eigencrust::cli {
 namespace {
@@ -28,30 +29,41 @@ volatile std::sig_atomic_t has_deadline = 0;
 
 constexpr long patience_in_nanoseconds = 300'000'000;
 
-/// \param message begins and ends with a line feed
-[[noreturn]] void end_with(std::string_view message, ErrorKind kind) {
+void write_all(std::initializer_list<std::string_view> pieces) {
+  for (const std::string_view piece : pieces)
+    [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, piece.data(), piece.size());
+}
+
+/// \param status that of `kind`, as text
+[[noreturn]] void end_with(std::string_view text, ErrorKind kind, std::string_view status) {
   remove_temporaries();
   if (status_when_done >= 0) _exit(status_when_done);
-  const bool terminal = isatty(STDERR_FILENO) != 0; // where a bar may stand in the line
-  const std::string_view text = message.substr(terminal ? 0 : 1);
-  [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, text.data(), text.size());
+  if (speaks_json())
+    write_all({"{\"event\":\"error\",\"text\":\"", text, "\"}\n{\"event\":\"finished\",\"status\":", status, "}\n"});
+  else // on a terminal a bar may stand in the line
+    write_all({isatty(STDERR_FILENO) != 0 ? "\n" : "", "eigencrust: error: ", text, "\n"});
   _exit(static_cast<int>(kind));
 }
 
-[[noreturn]] void end_now() {
-  end_with("\neigencrust: error: cancelled (signal); start again to finish\n", ErrorKind::cancelled);
+[[noreturn]] void end_now() { end_with("cancelled (signal); start again to finish", ErrorKind::cancelled, "130"); }
+
+bool is_about_memory() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return true;
+  } catch (...) {
+    return false;
+  }
 }
 
 /// Where no exception may pass: destructors of the JSON library take memory, and so do tasks of other threads.
 [[noreturn]] void on_terminate() {
-  const std::type_info* const type = abi::__cxa_current_exception_type();
-  if (type != nullptr && *type == typeid(std::bad_alloc))
+  if (std::current_exception() != nullptr && is_about_memory())
     end_with(
-        "\neigencrust: error: memory is exhausted (memory); give fewer points or take a machine with more, info "
-        "forecasts what is needed\n",
-        ErrorKind::memory);
-  end_with("\neigencrust: error: an exception was not caught (internal); report this as a fault of the program\n",
-           ErrorKind::guarantee);
+        "memory is exhausted (memory); give fewer points or take a machine with more, info forecasts what is needed",
+        ErrorKind::memory, "4");
+  end_with("an exception was not caught (internal); report this as a fault of the program", ErrorKind::guarantee, "6");
 }
 
 void on_signal(int) {

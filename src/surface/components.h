@@ -17,4 +17,7 @@ std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComp
                                                 const Tetrahedralization& tetrahedralization, const SampleModel& model,
                                                 const Labels& labels, const Threads& threads);
 
+/// Takes away the triangles where `gone` is not 0, and vertices that are then without one; the order stays.
+void drop_triangles(std::span<const std::uint8_t> gone, Surface& surface);
+
 } // namespace eigencrust

@@ -104,16 +104,11 @@ void copy_cells(Delaunay& delaunay, Tetrahedralization& result, const Threads& t
 /// Tetrahedra by their vertices: by the first with counting, then within each first vertex.
 std::vector<std::uint32_t> sorted_order(const Tetrahedralization& t, const Threads& threads) {
   const auto& tetrahedra = t.tetrahedra.raw();
-  const std::size_t vertices = t.positions.size();
-  auto [begin, order] = build_rows<std::uint32_t>(vertices, [&](auto&& visit) {
+  auto rows = build_rows<std::uint32_t>(t.positions.size(), [&](auto&& visit) {
     for (std::uint32_t i = 0; i < tetrahedra.size(); ++i) visit(tetrahedra[i][0].value, i);
   });
-  for_each_index(threads, vertices, [&, &begin = begin, &order = order](std::size_t v) {
-    const auto at = [&](std::uint64_t k) { return order.begin() + static_cast<std::ptrdiff_t>(k); };
-    std::sort(at(begin[v]), at(begin[v + 1]),
-              [&](std::uint32_t a, std::uint32_t b) { return tetrahedra[a] < tetrahedra[b]; });
-  });
-  return std::move(order);
+  sort_rows(rows, threads, [&](std::uint32_t a, std::uint32_t b) { return tetrahedra[a] < tetrahedra[b]; });
+  return std::move(rows.item);
 }
 
 /// From the engine's order, which depends on the order of insertion, to one that does not.
