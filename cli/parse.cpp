@@ -46,6 +46,7 @@ Parsed parse(OptionTable& table, const Arguments& arguments) {
     std::cout << help_text(table, asks("--help-all"));
     return {true, 0, {}};
   }
+  check_files(files_of(table.scan(arguments.words))); // a file of options is read, too
   const std::vector<std::string> words = with_config(table, arguments.words);
   const std::vector<Given> given = table.scan(words);
   table.set(given);

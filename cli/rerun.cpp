@@ -72,7 +72,7 @@ int rerun_verb(const Arguments& arguments) {
   std::string path, output, report_path;
   OptionTable app("The run that a report tells of, once more. Its inputs have to be the same, bit by bit.",
                   "eigencrust rerun");
-  app.add_option("REPORT", path, "JSON file that --report wrote")->required();
+  app.add_option("REPORT", path, "JSON file that --report wrote")->required()->type_name(file_to_read);
   app.add_option("-o,--output", output, "Where the result goes [as in the run]")->type_name(file_to_write);
   app.add_option("--report", report_path, "Write a report of this run [none]")->type_name(file_to_write);
   if (const Parsed parsed = parse(app, arguments); parsed.done) return parsed.status;
@@ -81,10 +81,6 @@ int rerun_verb(const Arguments& arguments) {
   if (!words.empty() && words.front() == "rerun")
     throw Error(ErrorKind::input, path, "this is the report of a rerun", "give that of the first run");
   check_inputs(report, path);
-  std::error_code ignored;
-  for (const std::string& written : {output, report_path})
-    if (!written.empty() && std::filesystem::equivalent(written, path, ignored))
-      throw Error(ErrorKind::usage, written, "the report that is read would be overwritten", "choose another name");
   std::vector<std::string> added;
   if (!output.empty()) {
     drop(words, "--output", "-o");

@@ -35,12 +35,26 @@ int open_nameless() {
   return descriptor;
 }
 
+[[noreturn]] void fail_cancelled() {
+  throw Error(ErrorKind::cancelled, "reading", "cancelled", "start again to finish");
+}
+
+/// Waits until somebody writes into a pipe; a signal ends that.
+int open_patiently(const std::string& path) {
+  int descriptor = -1;
+  do {
+    if (interrupted()) fail_cancelled();
+    descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  } while (descriptor < 0 && errno == EINTR);
+  return descriptor;
+}
+
 void copy_all(int from, int to, const std::string& place) {
   std::array<char, 1 << 16> buffer{};
   while (true) {
     constexpr int patience = 100; // milliseconds until somebody who gave up is noticed
     pollfd ready{from, POLLIN, 0};
-    if (interrupted()) throw Error(ErrorKind::cancelled, "reading", "cancelled", "start again to finish");
+    if (interrupted()) fail_cancelled();
     if (poll(&ready, 1, patience) == 0) continue;
     const ssize_t got = read(from, buffer.data(), buffer.size());
     if (got < 0 && errno == EINTR) continue;
@@ -65,7 +79,7 @@ ReadableFile::ReadableFile(const std::string& path) : given_(path == "-" ? "stan
   struct stat status {};
   const bool is_pipe = stat(path.c_str(), &status) == 0 && (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode));
   if (path != "-" && !is_pipe) return;
-  const int from = path == "-" ? dup(STDIN_FILENO) : open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int from = path == "-" ? dup(STDIN_FILENO) : open_patiently(path);
   if (from < 0) fail(given_, "it cannot be opened", "check what writes to it");
   descriptor_ = open_nameless();
   if (descriptor_ < 0) {

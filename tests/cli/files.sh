@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash disable=SC2154
 # Nothing that is read is ever written: each option that takes a file to read against each that takes one to write, by
-# the same name, a link, a hard link, and a link to what is not there yet. Both lists are taken from --help.
+# the same name, a link, a hard link, and a link to what is not there yet. Both lists are taken from --help-all.
 
 # named VERB TYPE: the options, and the words without a dash, whose value is of that type.
 named() {
-  "$program" "$1" --help | awk -v type="$2" '
+  "$program" "$1" --help-all | awk -v type="$2" '
+    type == "FILE" && $1 ~ /^[A-Z]+$/ && /^  [A-Z]/ { print $1; next } # the words without a dash are all read
     /^  [-A-Z]/ {
       for (i = 1; i <= NF; ++i) if ($i == type) {
         name = ""
@@ -43,6 +44,7 @@ fill_words() {
   for option in $reads; do
     case $option in
       -*) ;;
+      REPORT) ;; # one, and no more
       *)
         positional=cloud.ply
         case $verb in check | compare | render) positional=mesh.off ;; esac
@@ -59,7 +61,7 @@ test_what_is_read_is_not_written() {
   mkdir deep
   local verb reads writes read write way other tried=0 verbs=0 words=()
   for verb in $("$program" --help | sed -n 's/^  \([a-z]*\) .*  .*/\1/p' | sort -u); do
-    "$program" "$verb" --help >/dev/null 2>&1 || continue
+    "$program" "$verb" --help-all >/dev/null 2>&1 || continue
     verbs=$((verbs + 1))
     reads=$(named "$verb" FILE)
     writes=$(named "$verb" OUTPUT)

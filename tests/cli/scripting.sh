@@ -119,7 +119,7 @@ test_rerun() {
   same again.ply first.ply
   equal smooth "$(value again.json /options/smooth)" 2
   expect 0 rerun again.json
-  expect_error 2 "would be overwritten" rerun report.json --report report.json
+  expect_error 2 "would overwrite an input" rerun report.json --report report.json
   expect 0 orient cloud.xyz -o=normals.ply --report=normals.json
   mv normals.ply first.ply
   expect 0 rerun normals.json

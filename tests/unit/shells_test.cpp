@@ -6,7 +6,6 @@
 
 #include "clouds.h"
 #include "surface/components.h"
-#include "surface/drop_triangles.h"
 #include "surface/turned_over.h"
 
 namespace eigencrust {
