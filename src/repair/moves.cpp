@@ -7,14 +7,14 @@
 #include <limits>
 
 #include "repair/surface_fronts.h"
-#include "settle/data_term.h"
 
 namespace eigencrust {
 namespace {
 
-// What a sample is worth that the surface passes by: as much as the ties to its two poles can say, in units of the
-// energy, where a face costs 0.01 (well borne out by the samples) to 2 (not at all; docs/decisions/0027).
-const double sample_price = 2 * strongest_tie;
+// What a sample is worth that the surface passes by, in units of the energy, where a face costs 0.01 (well borne out by
+// the samples) to 2 (not at all): less than the ties of the three samples of a triangle can say for the space over it,
+// 3 × 0.1 e⁴ (settle/data_term.h). On clean scans nineteen of twenty cost less (docs/decisions/0027).
+constexpr double sample_price = 13;
 // Of the samples on the surface: as many passed by are noise or outliers, no one misses them.
 constexpr double most_passed = 0.04;
 // So few tetrahedra are no piece when a move leaves them over, and may turn with any move to mend what it breaks; with

@@ -10,6 +10,8 @@ namespace eigencrust {
 namespace {
 
 constexpr double least_gap_in_deviations = 5;
+// A few stray points are no sheet.
+constexpr double least_share = 1.0 / 6;
 
 /// Terms of z(x, y), and last the one that is 1 on the upper sheet: how much higher that is.
 enum Term : Eigen::Index { constant, in_x, in_y, in_xx, in_xy, in_yy, is_upper, terms };
@@ -87,14 +89,21 @@ std::optional<double> deviation_within_sheets(std::span<const Vec3> points, std:
   if (!(frame.variance[1] > 0)) return std::nullopt;
   SheetFit sheets(points, index, frame);
   double gap = sheets.fit();
+  std::size_t upper = 0;
   // The first quadric follows the sheets a little; with them told apart it does no more.
   for (int round = 0; round < 2; ++round) {
     std::vector<double> offsets(sheets.size());
     for (std::size_t k = 0; k < offsets.size(); ++k) offsets[k] = sheets.offset(k);
     const double split = best_split(offsets);
-    for (std::size_t k = 0; k < offsets.size(); ++k) sheets.set_upper(k, offsets[k] >= split);
+    upper = 0;
+    for (std::size_t k = 0; k < offsets.size(); ++k) {
+      sheets.set_upper(k, offsets[k] >= split);
+      upper += offsets[k] >= split;
+    }
     gap = sheets.fit();
   }
+  const double least = least_share * static_cast<double>(sheets.size());
+  if (static_cast<double>(std::min(upper, sheets.size() - upper)) < least) return std::nullopt;
   const double within = sheets.deviation();
   if (!(gap > least_gap_in_deviations * within)) return std::nullopt;
   return within;

@@ -20,7 +20,7 @@ namespace {
 constexpr double longest_kept = 2 * longest_edge;
 constexpr float least_support = 0.25f;
 // A scanner sees no surface at a flatter angle; triangles that do lie so lead from one depth to another.
-constexpr double flattest = 0.087; // cosine of 85°
+constexpr double flattest = 0.08716; // cosine of 85°
 
 std::array<Vec3, 3> corners(const TriangleMesh& mesh, std::size_t i) {
   const auto& [a, b, c] = mesh.triangles[i];

@@ -125,7 +125,7 @@ TEST(Moves, WeighTakesEverythingBackAndMakeDoesWhatWasWeighed) {
   Moves moves = stage.moves();
   moves.make_manifold();
   int made = 0;
-  for (std::uint64_t k = 0; k < 200; ++k) {
+  for (std::uint64_t k = 0; k < 400; ++k) {
     const MeshSummary before = stage.summary();
     const Labels labels = stage.labels.labels();
     const double cost = moves.labels().cost();
