@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "geometry/mesh_topology.h"
 #include "geometry/signed_volume.h"
@@ -110,6 +111,36 @@ void keep_shells(const Surface& surface, std::span<const std::uint32_t> piece, c
       kept[c] = 0;
     else
       kept[shell] = 1;
+  }
+}
+
+void turn_cavities_without_shell(Surface& surface, std::span<const std::uint32_t> piece, const Tetrahedralization& t,
+                                 const Labels& labels, std::span<const std::uint8_t> kept) {
+  if (!may_look_inward(surface, piece, kept)) return;
+  Regions regions(t, labels);
+  const std::vector<Wall> walls = walls_of(surface, piece, kept.size(), t, regions);
+  measure_depths(walls, regions);
+  const auto outer = [&](const Wall& wall) { // the side nearer to the cube
+    return regions.depth(wall.inside) < regions.depth(wall.outside) ? wall.inside : wall.outside;
+  };
+  const auto inner = [&](const Wall& wall) { return outer(wall) == wall.inside ? wall.outside : wall.inside; };
+  std::vector<std::uint32_t> inward(walls.size()); // those nearer to the cube first
+  std::iota(inward.begin(), inward.end(), 0u);
+  std::stable_sort(inward.begin(), inward.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return regions.depth(outer(walls[a])) < regions.depth(outer(walls[b]));
+  });
+  // An open surface may be several pieces; one of them is enough.
+  std::vector<std::uint8_t> is_walled(t.tetrahedra.size(), 0), changed(t.tetrahedra.size(), 0);
+  for (std::size_t c = 0; c < walls.size(); ++c) is_walled[inner(walls[c])] |= kept[c];
+  // Is a region on the other side than its label says, with the dropped walls gone?
+  for (const std::uint32_t c : inward)
+    if (const std::uint32_t from = outer(walls[c]), to = inner(walls[c]); regions.depth(to) > regions.depth(from))
+      changed[to] = changed[from] != (is_walled[to] == 0);
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    if (!kept[piece[i]] || !changed[walls[piece[i]].inside]) continue;
+    const TetrahedronIndex other = across(t, surface, i);
+    std::swap(surface.mesh.triangles[i][1], surface.mesh.triangles[i][2]);
+    surface.inside[i] = other;
   }
 }
 

@@ -17,4 +17,10 @@ namespace eigencrust {
 void keep_shells(const Surface& surface, std::span<const std::uint32_t> piece,
                  const Tetrahedralization& tetrahedralization, const Labels& labels, std::vector<std::uint8_t>& kept);
 
+/// The other way where shells were dropped because the samples do not bear them out: such a body is none, and what
+/// looked like its cavity is a body. Turns the pieces that face inward when only those that are kept divide the space.
+void turn_cavities_without_shell(Surface& surface, std::span<const std::uint32_t> piece,
+                                 const Tetrahedralization& tetrahedralization, const Labels& labels,
+                                 std::span<const std::uint8_t> kept);
+
 } // namespace eigencrust

@@ -52,6 +52,7 @@ TEST(OrdinaryParts, AShellOfOutliersIsNoBodyAndACoarseBodyIsOne) {
     const MeshSummary mesh = mesh_of(clouds::joined(ball, shell));
     EXPECT_EQ(mesh.components, 1u);
     EXPECT_EQ(mesh.vertices, 20000u);
+    EXPECT_NEAR(mesh.volume, 4 * std::numbers::pi / 3 * 0.125, 0.001); // whatever the space in the shell was taken for
   }
   // Three times as coarse: its samples are lonely, but it is smooth.
   const MeshSummary both = mesh_of(clouds::joined(ball, clouds::moved(clouds::sphere(600, 0.25), {3, 0, 0})));
