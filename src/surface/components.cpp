@@ -149,8 +149,7 @@ std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComp
   std::vector<std::uint8_t> kept = choose(surface, pieces, keep);
   if (keep.kind == KeepComponents::Kind::supported)
     turn_cavities_without_shell(surface, component, t, labels, kept);
-  else
-    keep_shells(surface, component, t, labels, kept);
+  keep_shells(surface, component, t, labels, kept); // also of bodies that are open at the back of a scan
   std::vector<DroppedComponent> dropped;
   std::vector<std::uint8_t> gone(surface.mesh.triangles.size(), 0);
   for (std::size_t c = 0; c < pieces.size(); ++c) {
