@@ -9,7 +9,6 @@
 #include <streambuf>
 #include <system_error>
 
-#include <eigencrust/error.h>
 #include <eigencrust/io.h>
 
 #include "io/system_call.h"
@@ -20,10 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& path, const std::string& cause, int code, const std::string& remedy) {
-  throw Error(ErrorKind::input, path.string(), code == 0 ? cause : cause + ": " + std::generic_category().message(code),
-              remedy);
-}
+using io::fail;
 
 /// A stream buffer on a file descriptor that keeps the first error.
 class DescriptorBuffer : public std::streambuf {

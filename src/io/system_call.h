@@ -6,8 +6,20 @@
 #include <poll.h>
 
 #include <cerrno>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include <eigencrust/error.h>
 
 namespace eigencrust::io {
+
+/// \param code errno, or 0: the system did not say why. \throws Error{input}
+[[noreturn]] inline void fail(const std::filesystem::path& path, const std::string& cause, int code,
+                              const std::string& remedy) {
+  throw Error(ErrorKind::input, path.string(), code == 0 ? cause : cause + ": " + std::generic_category().message(code),
+              remedy);
+}
 
 /// Calls again while a signal interrupts. `call` returns a negative number and sets errno where it fails.
 template <class Call>

@@ -12,7 +12,6 @@
 #include <string>
 #include <system_error>
 
-#include <eigencrust/error.h>
 #include <eigencrust/io.h>
 
 #include "io/system_call.h"
@@ -45,10 +44,6 @@ int register_name(const std::string& path) {
 
 void release_name(int slot) {
   if (slot >= 0) slots[static_cast<std::size_t>(slot)].state = Slot::free;
-}
-
-[[noreturn]] void fail(const fs::path& path, const std::string& cause, int code, const std::string& remedy) {
-  throw Error(ErrorKind::input, path.string(), cause + ": " + std::generic_category().message(code), remedy);
 }
 
 /// No two runs on one host have a name in common, hardly any on two hosts; creation refuses what exists.

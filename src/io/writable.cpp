@@ -9,18 +9,16 @@
 #include <cstdlib>
 #include <system_error>
 
-#include <eigencrust/error.h>
 #include <eigencrust/io.h>
+
+#include "io/system_call.h"
 
 namespace eigencrust {
 namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& path, const std::string& cause, int code, const std::string& remedy) {
-  throw Error(ErrorKind::input, path.string(), code == 0 ? cause : cause + ": " + std::generic_category().message(code),
-              remedy);
-}
+using io::fail;
 
 /// A file without a name, or with one for a moment where the file system knows no others.
 int open_probe(const fs::path& folder) {

@@ -147,9 +147,7 @@ std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComp
   const std::vector<std::uint32_t> component = triangle_components(surface.mesh, threads.size());
   const std::vector<Piece> pieces = measure_pieces(surface, component, model);
   std::vector<std::uint8_t> kept = choose(surface, pieces, keep);
-  if (keep.kind == KeepComponents::Kind::supported)
-    turn_cavities_without_shell(surface, component, t, labels, kept);
-  keep_shells(surface, component, t, labels, kept); // also of bodies that are open at the back of a scan
+  settle_cavities(surface, component, t, labels, keep.kind == KeepComponents::Kind::supported, kept);
   std::vector<DroppedComponent> dropped;
   std::vector<std::uint8_t> gone(surface.mesh.triangles.size(), 0);
   for (std::size_t c = 0; c < pieces.size(); ++c) {

@@ -7,6 +7,7 @@
 
 #include "geometry/mesh_topology.h"
 #include "geometry/signed_volume.h"
+#include "surface/support.h"
 
 namespace eigencrust {
 namespace {
@@ -39,22 +40,12 @@ struct Wall {
   std::uint32_t inside = 0, outside = 0, triangles = 0;
 };
 
-TetrahedronIndex across(const Tetrahedralization& t, const Surface& surface, std::size_t triangle) {
-  const auto& v = surface.mesh.triangles[triangle];
-  const TetrahedronIndex inside = surface.inside[triangle];
-  for (std::size_t k = 0; k < t.tetrahedra[inside].size(); ++k)
-    if (std::none_of(v.begin(), v.end(),
-                     [&](std::uint32_t corner) { return surface.sample_of[corner] == t.tetrahedra[inside][k]; }))
-      return t.neighbours[inside][k];
-  return {};
-}
-
 std::vector<Wall> walls_of(const Surface& surface, std::span<const std::uint32_t> piece, std::size_t pieces,
                            const Tetrahedralization& t, Regions& regions) {
   std::vector<Wall> walls(pieces);
   for (std::size_t i = 0; i < piece.size(); ++i) {
     Wall& wall = walls[piece[i]];
-    if (wall.triangles++ == 0) wall = {regions.at(surface.inside[i]), regions.at(across(t, surface, i)), 1};
+    if (wall.triangles++ == 0) wall = {regions.at(surface.inside[i]), regions.at(outside_of(surface, i, t)), 1};
   }
   return walls;
 }
@@ -89,41 +80,15 @@ void measure_depths(std::span<const Wall> walls, Regions& regions) {
   }
 }
 
-} // namespace
+bool is_cavity(const Wall& wall, Regions& regions) { return regions.depth(wall.inside) < regions.depth(wall.outside); }
 
-void keep_shells(const Surface& surface, std::span<const std::uint32_t> piece, const Tetrahedralization& t,
-                 const Labels& labels, std::vector<std::uint8_t>& kept) {
-  if (!may_look_inward(surface, piece, kept)) return;
-  Regions regions(t, labels);
-  const std::vector<Wall> walls = walls_of(surface, piece, kept.size(), t, regions);
-  measure_depths(walls, regions);
-  const auto is_cavity = [&](const Wall& wall) { return regions.depth(wall.inside) < regions.depth(wall.outside); };
-  for (std::size_t c = 0; c < walls.size(); ++c) {
-    if (!kept[c] || !is_cavity(walls[c])) continue;
-    // The one shell; a body that is open at the back of a scan may have several, of which the largest will do.
-    std::size_t shell = walls.size();
-    for (std::size_t s = 0; s < walls.size(); ++s)
-      if (walls[s].inside == walls[c].inside && !is_cavity(walls[s]) &&
-          (shell == walls.size() || kept[s] > kept[shell] ||
-           (kept[s] == kept[shell] && walls[s].triangles > walls[shell].triangles)))
-        shell = s;
-    if (shell == walls.size())
-      kept[c] = 0;
-    else
-      kept[shell] = 1;
-  }
-}
-
-void turn_cavities_without_shell(Surface& surface, std::span<const std::uint32_t> piece, const Tetrahedralization& t,
-                                 const Labels& labels, std::span<const std::uint8_t> kept) {
-  if (!may_look_inward(surface, piece, kept)) return;
-  Regions regions(t, labels);
-  const std::vector<Wall> walls = walls_of(surface, piece, kept.size(), t, regions);
-  measure_depths(walls, regions);
+/// Turns pieces that face inward when only those that are kept divide the space.
+void turn_without_shell(Surface& surface, std::span<const std::uint32_t> piece, const Tetrahedralization& t,
+                        std::span<const std::uint8_t> kept, Regions& regions, std::vector<Wall>& walls) {
   const auto outer = [&](const Wall& wall) { // the side nearer to the cube
-    return regions.depth(wall.inside) < regions.depth(wall.outside) ? wall.inside : wall.outside;
+    return is_cavity(wall, regions) ? wall.inside : wall.outside;
   };
-  const auto inner = [&](const Wall& wall) { return outer(wall) == wall.inside ? wall.outside : wall.inside; };
+  const auto inner = [&](const Wall& wall) { return is_cavity(wall, regions) ? wall.outside : wall.inside; };
   std::vector<std::uint32_t> inward(walls.size()); // those nearer to the cube first
   std::iota(inward.begin(), inward.end(), 0u);
   std::stable_sort(inward.begin(), inward.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -138,10 +103,41 @@ void turn_cavities_without_shell(Surface& surface, std::span<const std::uint32_t
       changed[to] = changed[from] != (is_walled[to] == 0);
   for (std::size_t i = 0; i < piece.size(); ++i) {
     if (!kept[piece[i]] || !changed[walls[piece[i]].inside]) continue;
-    const TetrahedronIndex other = across(t, surface, i);
+    const TetrahedronIndex other = outside_of(surface, i, t);
     std::swap(surface.mesh.triangles[i][1], surface.mesh.triangles[i][2]);
     surface.inside[i] = other;
   }
+  for (std::size_t c = 0; c < walls.size(); ++c)
+    if (kept[c] && changed[walls[c].inside]) std::swap(walls[c].inside, walls[c].outside);
+}
+
+void keep_shells(std::span<const Wall> walls, Regions& regions, std::vector<std::uint8_t>& kept) {
+  for (std::size_t c = 0; c < walls.size(); ++c) {
+    if (!kept[c] || !is_cavity(walls[c], regions)) continue;
+    // The one shell; a body that is open at the back of a scan may have several, of which the largest will do.
+    std::size_t shell = walls.size();
+    for (std::size_t s = 0; s < walls.size(); ++s)
+      if (walls[s].inside == walls[c].inside && !is_cavity(walls[s], regions) &&
+          (shell == walls.size() || kept[s] > kept[shell] ||
+           (kept[s] == kept[shell] && walls[s].triangles > walls[shell].triangles)))
+        shell = s;
+    if (shell == walls.size())
+      kept[c] = 0;
+    else
+      kept[shell] = 1;
+  }
+}
+
+} // namespace
+
+void settle_cavities(Surface& surface, std::span<const std::uint32_t> piece, const Tetrahedralization& t,
+                     const Labels& labels, bool turn, std::vector<std::uint8_t>& kept) {
+  if (!may_look_inward(surface, piece, kept)) return;
+  Regions regions(t, labels);
+  std::vector<Wall> walls = walls_of(surface, piece, kept.size(), t, regions);
+  measure_depths(walls, regions);
+  if (turn) turn_without_shell(surface, piece, t, kept, regions, walls);
+  keep_shells(walls, regions, kept);
 }
 
 } // namespace eigencrust

@@ -11,16 +11,11 @@
 namespace eigencrust {
 
 /// Marks beside each wall of a cavity that is kept the shell of its body, and unmarks walls whose body has none: it was
-/// trimmed away. Which piece is which is told by the tetrahedra alone, so no rounding can mislead.
-/// \param piece of each triangle
-/// \param kept  1 or 0 for each piece
-void keep_shells(const Surface& surface, std::span<const std::uint32_t> piece,
-                 const Tetrahedralization& tetrahedralization, const Labels& labels, std::vector<std::uint8_t>& kept);
-
-/// The other way where shells were dropped because the samples do not bear them out: such a body is none, and what
-/// looked like its cavity is a body. Turns the pieces that face inward when only those that are kept divide the space.
-void turn_cavities_without_shell(Surface& surface, std::span<const std::uint32_t> piece,
-                                 const Tetrahedralization& tetrahedralization, const Labels& labels,
-                                 std::span<const std::uint8_t> kept);
+/// trimmed away. With `turn` a dropped shell stays dropped, for the samples do not bear it out: such a body is none,
+/// what looked like its cavity is a body, and its wall is turned. Which piece is which is told by the tetrahedra alone,
+/// so no rounding can mislead. \param piece of each triangle \param kept  1 or 0 for each piece
+void settle_cavities(Surface& surface, std::span<const std::uint32_t> piece,
+                     const Tetrahedralization& tetrahedralization, const Labels& labels, bool turn,
+                     std::vector<std::uint8_t>& kept);
 
 } // namespace eigencrust

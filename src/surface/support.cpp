@@ -14,14 +14,17 @@ namespace {
 // The longest edge of a triangle among evenly spread samples is about twice the distance to the third nearest.
 constexpr double full_support = 2.5;
 
-/// Across the triangle of v that has no other vertex of `inside`.
-TetrahedronIndex across(const Tetrahedralization& t, TetrahedronIndex inside, const std::array<SampleIndex, 3>& v) {
-  for (std::size_t k = 0; k < 4; ++k)
-    if (std::find(v.begin(), v.end(), t.tetrahedra[inside][k]) == v.end()) return t.neighbours[inside][k];
+} // namespace
+
+TetrahedronIndex outside_of(const Surface& surface, std::size_t triangle, const Tetrahedralization& t) {
+  const TetrahedronIndex inside = surface.inside[triangle];
+  const auto& v = surface.mesh.triangles[triangle];
+  for (std::size_t k = 0; k < t.tetrahedra[inside].size(); ++k)
+    if (std::none_of(v.begin(), v.end(),
+                     [&](std::uint32_t corner) { return surface.sample_of[corner] == t.tetrahedra[inside][k]; }))
+      return t.neighbours[inside][k];
   return {};
 }
-
-} // namespace
 
 void measure_support(const Tetrahedralization& t, const TetrahedronLabels& labels, const SampleModel& model,
                      std::span<const float> grid_spacing, Surface& surface, const Threads& threads) {
@@ -36,7 +39,7 @@ void measure_support(const Tetrahedralization& t, const TetrahedronLabels& label
       if (!grid_spacing.empty()) scale = std::max(scale, grid_spacing[v[k].value]);
       mean += static_cast<double>(scale) / static_cast<double>(v.size());
     }
-    const TetrahedronIndex inside = surface.inside[i], outside = across(t, inside, v);
+    const TetrahedronIndex inside = surface.inside[i], outside = outside_of(surface, i, t);
     const float contrast = outside.valid() ? std::fabs(labels.value(outside) - labels.value(inside)) : 0;
     const double sampling = std::min(1.0, full_support * mean / longest);
     surface.support[i] = static_cast<float>(sampling * (1 + std::min(1.0, static_cast<double>(contrast))) / 2);
