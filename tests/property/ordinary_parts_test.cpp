@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "clouds.h"
+#include "source_folder.h"
 
 namespace eigencrust {
 namespace {
@@ -171,7 +172,7 @@ TEST(OrdinaryParts, AScrapIsNoSuccess) {
 }
 
 TEST(OrdinaryParts, NothingReachesForTheStrayPointsUnderTheTeapot) {
-  const PointCloud cloud = read_point_cloud(std::filesystem::path(EIGENCRUST_SOURCE_DIR) / "examples/teapot_scan.ply");
+  const PointCloud cloud = read_point_cloud(source_folder() / "examples/teapot_scan.ply");
   const Result result = reconstruct(cloud);
   EXPECT_EQ(result.report.mesh.genus, 1);
   EXPECT_GT(result.report.mesh.bounds.min.z, -0.01); // the teapot stands on z = 0; a stray point at -0.13 was taken in
