@@ -6,7 +6,6 @@
 #include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <span>
 
 #include <eigencrust/memory_forecast.h>
 #include <eigencrust/stages.h>
@@ -66,13 +65,6 @@ Json json_of(const Box3& b) {
   return {{"min", {b.min.x, b.min.y, b.min.z}}, {"max", {b.max.x, b.max.y, b.max.z}}, {"diagonal", b.diagonal()}};
 }
 
-Json bounds_of(std::span<const Vec3> points) {
-  Box3 box;
-  for (const Vec3& p : points)
-    if (is_finite(p)) box.add(p);
-  return box.empty() ? Json() : json_of(box);
-}
-
 /// What can be said of points that no surface can be made of.
 void collect_unusable(const std::vector<Vec3>& points, const Error& why, Json& json) {
   std::vector<Vec3> finite;
@@ -109,10 +101,9 @@ void collect_samples(const PointCloud& cloud, const Threads& threads, Json& json
   }
 }
 
-nlohmann::ordered_json collect(const PointCloud& cloud, const std::vector<InputFile>& files, const InputNotes& notes,
-                               const Threads& threads) {
+nlohmann::ordered_json collect(const PointCloud& cloud, const ReadReport& read, const Threads& threads) {
   nlohmann::ordered_json json;
-  std::size_t first = 0; // row of the file
+  const std::vector<InputFile>& files = read.files;
   for (std::size_t i = 0; i < files.size(); ++i) {
     // Columns are told of all files together; each has its part of them.
     const double share = static_cast<double>(files[i].points) / std::max(1.0, static_cast<double>(cloud.points.size()));
@@ -120,13 +111,12 @@ nlohmann::ordered_json collect(const PointCloud& cloud, const std::vector<InputF
     json["files"].push_back({{"path", files[i].path},
                              {"sha256", files[i].sha256},
                              {"points", files[i].points},
-                             {"bounds", bounds_of({cloud.points.data() + first, files[i].points})},
-                             {"notes", notes.files[i].notes},
-                             {"warnings", notes.files[i].warnings},
+                             {"bounds", read.bounds[i].empty() ? Json() : json_of(read.bounds[i])},
+                             {"notes", read.notes[i].notes},
+                             {"warnings", read.notes[i].warnings},
                              {"forecast", json_of(forecast(files[i].points, further))}});
-    first += files[i].points;
   }
-  json["warnings"] = notes.together;
+  json["warnings"] = read.together;
   json["points"] = cloud.points.size();
   std::uint32_t scans = cloud.points.empty() ? 0 : 1;
   for (const std::uint32_t scan : cloud.scan_index) scans = std::max(scans, scan + 1);
@@ -231,14 +221,16 @@ void print_forecast(const nlohmann::ordered_json& j) {
 
 void print(const nlohmann::ordered_json& j) {
   for (const auto& f : j["files"]) {
-    std::cout << f["path"].get<std::string>() << ": " << grouped(f["points"].get<std::uint64_t>()) << " points";
+    std::cout << printable(f["path"].get<std::string>()) << ": " << grouped(f["points"].get<std::uint64_t>())
+              << " points";
     if (j["files"].size() > 1) std::cout << ", forecast " << show_forecast(f["forecast"]);
     std::cout << "\n";
     if (j["files"].size() > 1 && !f["bounds"].is_null()) std::cout << "  " << show_bounds(f["bounds"]) << "\n";
-    for (const auto& note : f["notes"]) std::cout << "  " << note.get<std::string>() << "\n";
-    for (const auto& warning : f["warnings"]) std::cout << "  warning: " << warning.get<std::string>() << "\n";
+    for (const auto& note : f["notes"]) std::cout << "  " << printable(note.get<std::string>()) << "\n";
+    for (const auto& warning : f["warnings"])
+      std::cout << "  warning: " << printable(warning.get<std::string>()) << "\n";
   }
-  for (const auto& warning : j["warnings"]) std::cout << "warning: " << warning.get<std::string>() << "\n";
+  for (const auto& warning : j["warnings"]) std::cout << "warning: " << printable(warning.get<std::string>()) << "\n";
   print_samples(j);
   print_forecast(j);
   print_grids(j["grids"]);
@@ -246,7 +238,7 @@ void print(const nlohmann::ordered_json& j) {
   if (j["attributes"].empty()) return;
   std::cout << "  attributes";
   for (const auto& a : j["attributes"])
-    std::cout << " " << a["name"].get<std::string>() << ":" << a["type"].get<std::string>()
+    std::cout << " " << printable(a["name"].get<std::string>()) << ":" << a["type"].get<std::string>()
               << (a["list"].get<bool>() ? "[]" : "");
   std::cout << "\n";
 }
@@ -257,16 +249,16 @@ int info_verb(const Arguments& arguments) {
   InputOptions input;
   bool json = false;
   unsigned threads = 0;
-  CLI::App app("What is in a point cloud.", "eigencrust info");
+  OptionTable app("What is in a point cloud.", "eigencrust info");
   add_input_options(app, input);
+  app.begin_chapter("Running");
   app.add_flag("--json", json, "Print the figures as JSON");
   app.add_option("--threads", threads, "Threads, 0 for all cores")->capture_default_str();
   if (const Parsed parsed = parse(app, arguments); parsed.done) return parsed.status;
-  std::vector<InputFile> files;
-  InputNotes notes;
-  const PointCloud cloud = read_inputs(input, files, notes);
+  ReadReport read;
+  const PointCloud cloud = read_inputs(input, read);
   const Threads team(threads);
-  const nlohmann::ordered_json figures = collect(cloud, files, notes, team);
+  const nlohmann::ordered_json figures = collect(cloud, read, team);
   if (json)
     std::cout << figures.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
   else

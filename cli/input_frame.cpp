@@ -40,17 +40,19 @@ double parse_scale(const std::string& text) {
 
 } // namespace
 
-void add_frame_options(CLI::App& app, InputOptions& options) {
+void add_frame_options(OptionTable& app, InputOptions& options) {
+  app.begin_chapter("Reading");
   app.add_option("--unit", options.unit,
                  "Unit of the inputs (um mm cm dm m km in ft): they are turned into metres; once for all, or for each "
                  "input in order")
-      ->allow_extra_args(false);
+      ->type_name("UNIT");
   app.add_option("--scale", options.scale,
                  "Factor for the coordinates of the inputs; once for all, or for each input in order")
-      ->allow_extra_args(false);
+      ->type_name("X");
   app.add_option("--shift", options.shift,
                  "x,y,z that is added to the coordinates, after the scale, e.g. -512000,-5412000,0; lengths and places "
-                 "of other options are then those of the result");
+                 "of other options are then those of the result")
+      ->type_name("X,Y,Z");
 }
 
 double scale_of_input(const InputOptions& options, std::size_t input) {

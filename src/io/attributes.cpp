@@ -168,12 +168,14 @@ std::string UniqueNames::operator()(const std::string& name) {
 }
 
 void warn_lost_attributes(const std::vector<Attribute>& attributes, const std::string& of, const ViewerColours* colours,
-                          bool with_alpha, const std::string& format, std::vector<std::string>& warnings) {
+                          bool with_alpha, const std::string& format, std::vector<std::string>& warnings,
+                          const std::vector<const Attribute*>& kept) {
   std::string names;
   for (const Attribute& attribute : attributes) {
     const bool is_colour = colours != nullptr && colours->is_source(attribute);
     const bool is_alpha = is_colour && colours->source.size() == 4 && colours->source.back() == &attribute;
     if (is_colour && (with_alpha || !is_alpha)) continue;
+    if (std::find(kept.begin(), kept.end(), &attribute) != kept.end()) continue;
     names += (names.empty() ? "" : ", ") + attribute.name;
   }
   if (!names.empty()) warnings.push_back(format + " has no room for these attributes of the " + of + ": " + names);

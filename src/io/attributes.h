@@ -41,8 +41,10 @@ void keep_rows(PointCloud& cloud, std::span<const std::uint32_t> rows);
 /// One warning that lists the attributes a format has no room for.
 /// \param colours those that it holds, or null
 /// \param with_alpha the format holds alpha too
+/// \param kept others that it holds
 void warn_lost_attributes(const std::vector<Attribute>& attributes, const std::string& of, const ViewerColours* colours,
-                          bool with_alpha, const std::string& format, std::vector<std::string>& warnings);
+                          bool with_alpha, const std::string& format, std::vector<std::string>& warnings,
+                          const std::vector<const Attribute*>& kept = {});
 
 /// \throws Error{usage} unless every attribute has `rows` rows and sound list offsets
 void check_attributes(const std::vector<Attribute>& attributes, std::size_t rows, const std::string& of);

@@ -15,7 +15,9 @@
 #include "io/column_names.h"
 #include "io/coordinate_checks.h"
 #include "io/formats.h"
+#include "io/offset_file.h"
 #include "io/sensor_columns.h"
+#include "io/sha256.h"
 #include "io/table_plan.h"
 #include "io/text.h"
 #include "io/text_encoding.h"
@@ -84,12 +86,12 @@ constexpr std::array<Format, 16> formats = {{
     {"pts", io::read_pts},
     {"e57", read_noted<io::read_e57>},
     {"ptx", read_ptx_points},
-    {"pcd", read_pcd_points},
-    {"las", read_noted<io::read_las>},
+    {"pcd", read_pcd_points, nullptr, nullptr, io::prepare_pcd},
+    {"las", read_noted<io::read_las>, nullptr, nullptr, io::prepare_las},
     {"laz", read_noted<io::read_las>}, // which says why it cannot
     {"npz", read_noted<io::read_npz>},
     {"npy", read_npy_points},
-    {"obj", read_vertices<io::read_obj>, io::read_obj, io::prepare_obj},
+    {"obj", read_vertices<io::read_obj>, io::read_obj, io::prepare_obj, io::prepare_obj},
     {"off", read_vertices<io::read_off>, io::read_off, io::prepare_off},
     {"stl", read_vertices<io::read_stl>, io::read_stl, io::prepare_stl},
 }};
@@ -103,6 +105,11 @@ const Format* find_format(std::string_view extension) {
 const Format* format_of(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
   return extension.empty() ? nullptr : find_format(std::string_view(extension).substr(1));
+}
+
+/// For writing: that of the name, unless another is asked for.
+const Format* format_for_writing(const std::filesystem::path& path, const std::string& format) {
+  return format.empty() ? format_of(path) : find_format(format);
 }
 
 /// Recognizes text formats by their first line that is no comment.
@@ -171,11 +178,17 @@ const Format& format_for_reading(const FileContent& file, bool mesh_wanted) {
   return *format;
 }
 
-/// From the files that COLMAP writes beside a fused cloud.
-void add_colmap_sensors(const std::filesystem::path& path, PointCloud& cloud, Notes& notes) {
+/// The visibility that COLMAP writes beside a fused cloud; empty where there is none.
+std::filesystem::path visibility_of(const std::filesystem::path& path) {
   const std::filesystem::path visibility = path.string() + ".vis";
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(visibility, ignored)) return;
+  return std::filesystem::is_regular_file(visibility, ignored) ? visibility : std::filesystem::path();
+}
+
+/// From the files that COLMAP writes beside a fused cloud.
+void add_colmap_sensors(const std::filesystem::path& path, PointCloud& cloud, Notes& notes) {
+  const std::filesystem::path visibility = visibility_of(path);
+  if (visibility.empty()) return;
   const auto images = io::find_colmap_images(path);
   if (!images) {
     notes.push_back(visibility.filename().string() +
@@ -212,7 +225,7 @@ void change_frame(PointCloud& cloud, const ReadOptions& options) {
 
 [[noreturn]] void fail_extension(const std::filesystem::path& path, bool mesh) {
   throw Error(ErrorKind::input, path.string(), "there is no writer for this file name's extension",
-              mesh ? "use .ply, .obj, .off or .stl" : "use .ply, .xyz, .txt, .asc or .csv");
+              mesh ? "use .ply, .obj, .off or .stl" : "use .ply, .pcd, .las, .xyz, .txt, .asc, .csv or .obj");
 }
 
 /// Are the sensors among the attributes, so that they are written?
@@ -227,49 +240,15 @@ bool columns_tell_sensors(const PointCloud& cloud) {
   return true;
 }
 
-std::string three_numbers(const Vec3& v) {
-  std::string text;
-  for (const double value : {v.x, v.y, v.z}) {
-    text += text.empty() ? "" : " ";
-    io::append_number(text, value == 0 ? 0.0 : value); // no -0
-  }
-  return text;
-}
-
 /// The shift as one more comment.
 WriteOptions with_shift(WriteOptions options) {
-  if (options.shift != Vec3{}) options.comments.push_back("shift " + three_numbers(options.shift));
+  if (options.shift != Vec3{}) options.comments.push_back("shift " + io::three_numbers(options.shift));
   return options;
 }
 
-constexpr std::string_view offset_mark = "# eigencrust: add these numbers to the coordinates of ";
-
-/// A file of offsets that an earlier run left beside an older file of that name: it would lead astray.
-void remove_stale_offset(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored)) return;
-  if (FileContent(file).bytes().starts_with(offset_mark)) std::filesystem::remove(file, ignored);
-}
-
-/// Writes the file and, where it has no room for what leads back to the input's coordinates, NAME.offset.txt. Either
-/// both are there in the end or neither is new.
-void write_with_offset(const std::filesystem::path& path, const Body& body, const Vec3& offset, bool is_told) {
-  const std::filesystem::path beside = path.string() + ".offset.txt";
-  if (is_told || offset == Vec3{}) {
-    write_file_atomically(path, body);
-    remove_stale_offset(beside);
-    return;
-  }
-  write_file_atomically(beside, [&](std::ostream& out) {
-    out << offset_mark << path.filename().string() << " to return to those of the input\n"
-        << three_numbers(offset) << "\n";
-  });
-  try {
-    write_file_atomically(path, body);
-  } catch (...) {
-    remove_stale_offset(beside);
-    throw;
-  }
+/// Do the comments of WriteOptions arrive in files of the format?
+bool keeps_comments(const Format& format) {
+  return format.extension != "stl" && format.extension != "csv" && format.extension != "las";
 }
 
 void check_mesh(const TriangleMesh& mesh) {
@@ -306,11 +285,22 @@ PointCloud io::read_cloud(const FileContent& original, const ReadOptions& option
 
 TriangleMesh io::read_mesh(const FileContent& file) { return format_for_reading(file, true).read_mesh(file); }
 
-PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options, ReadNotes* notes) {
+std::vector<std::filesystem::path> companion_files(const std::filesystem::path& path) {
+  const std::filesystem::path visibility = visibility_of(path);
+  if (visibility.empty()) return {};
+  std::vector<std::filesystem::path> files{visibility};
+  if (const auto images = io::find_colmap_images(path)) files.push_back(*images);
+  return files;
+}
+
+PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options, ReadNotes* notes,
+                            std::string* sha256) {
   try {
     ReadNotes unused;
     ReadNotes& said = notes == nullptr ? unused : *notes;
-    PointCloud cloud = io::read_cloud(FileContent(path), options, said);
+    const FileContent file(path);
+    if (sha256 != nullptr) *sha256 = io::sha256_of(file);
+    PointCloud cloud = io::read_cloud(file, options, said);
     if (options.sensors && cloud.sensors.empty()) add_colmap_sensors(path, cloud, said.notes);
     change_frame(cloud, options);
     return cloud;
@@ -331,40 +321,58 @@ TriangleMesh read_mesh(const std::filesystem::path& path) {
   }
 }
 
-WriteResult write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options) {
-  const Format* format = format_of(path);
+WriteResult OutputFiles::add_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
+                                  const WriteOptions& options) {
+  const Format* format = format_for_writing(path, options.format);
   if (format == nullptr || format->write_mesh == nullptr) fail_extension(path, true);
   check_mesh(mesh);
   WriteResult result;
   const WriteOptions commented = with_shift(options);
   const Body body = format->write_mesh(mesh, commented, result);
-  const bool has_comments = format->extension != "stl";
-  write_with_offset(path, body, result.offset - options.shift, has_comments && result.offset == Vec3{});
+  const bool is_told = keeps_comments(*format) && result.offset == Vec3{};
+  add_offset(path, is_told ? Vec3{} : result.offset - options.shift, result.warnings);
+  add(path, body);
   return result;
 }
 
-WriteResult write_point_cloud(const std::filesystem::path& path, const PointCloud& cloud, const WriteOptions& options) {
-  const Format* format = format_of(path);
+WriteResult OutputFiles::add_point_cloud(const std::filesystem::path& path, const PointCloud& cloud,
+                                         const WriteOptions& options) {
+  const Format* format = format_for_writing(path, options.format);
   if (format == nullptr || format->write_cloud == nullptr) fail_extension(path, false);
   io::check_attributes(cloud.attributes, cloud.points.size(), "point");
   WriteResult result;
   const WriteOptions commented = with_shift(options);
   const Body body = format->write_cloud(cloud, commented, result);
   if (!cloud.scan_index.empty()) result.warnings.emplace_back("the scan numbers of the points are not written");
-  if (!cloud.sensors.empty() && !columns_tell_sensors(cloud))
+  const bool has_viewpoint = format->extension == "pcd" && io::viewpoint_of(cloud);
+  if (!cloud.sensors.empty() && !has_viewpoint && !columns_tell_sensors(cloud))
     result.warnings.emplace_back("the sensors of the points are not written");
-  const bool has_comments = format->extension != "csv";
-  write_with_offset(path, body, Vec3{} - options.shift, has_comments);
+  add_offset(path, keeps_comments(*format) ? Vec3{} : Vec3{} - options.shift, result.warnings);
+  add(path, body);
   return result;
 }
 
-bool can_write_mesh(const std::filesystem::path& path) {
-  const Format* format = format_of(path);
+WriteResult write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options) {
+  OutputFiles files;
+  WriteResult result = files.add_mesh(path, mesh, options);
+  files.put_in_place();
+  return result;
+}
+
+WriteResult write_point_cloud(const std::filesystem::path& path, const PointCloud& cloud, const WriteOptions& options) {
+  OutputFiles files;
+  WriteResult result = files.add_point_cloud(path, cloud, options);
+  files.put_in_place();
+  return result;
+}
+
+bool can_write_mesh(const std::filesystem::path& path, const std::string& name) {
+  const Format* format = format_for_writing(path, name);
   return format != nullptr && format->write_mesh != nullptr;
 }
 
-bool can_write_point_cloud(const std::filesystem::path& path) {
-  const Format* format = format_of(path);
+bool can_write_point_cloud(const std::filesystem::path& path, const std::string& name) {
+  const Format* format = format_for_writing(path, name);
   return format != nullptr && format->write_cloud != nullptr;
 }
 

@@ -184,7 +184,8 @@ TEST_F(IoTables, FirstColumnsThatAreNoCoordinates) {
   EXPECT_THAT(notes_.warnings,
               ElementsAre(HasSubstr("columns 2, 3 and 4 are read as x, y and z"), HasSubstr("'column5' left out")));
 
-  const std::string named = rows_of(50, [](std::size_t i) { return "P" + std::to_string(i) + "," + point_text(i); });
+  const std::string named = rows_of(
+      50, [](std::size_t i) { return std::string("P").append(std::to_string(i)).append(",").append(point_text(i)); });
   EXPECT_THAT(error("a.csv", named), HasSubstr("column 1 holds words"));
   EXPECT_THAT(typed(error("a.csv", named)), ElementsAre("-", "x", "y", "z"));
   EXPECT_EQ(read("a.csv", named, typed(error("a.csv", named))).points[0].z, 341);
@@ -204,8 +205,8 @@ TEST_F(IoTables, FirstColumnsThatAreNoCoordinates) {
   const std::string matrix = rows_of(30, [](std::size_t i) {
     std::string row;
     for (std::size_t k = 0; k < 40; ++k)
-      row += (k > 0 ? "," : "") +
-             std::to_string(std::sin(0.2 * static_cast<double>(i)) + std::cos(0.15 * static_cast<double>(k)));
+      row.append(k > 0 ? "," : "")
+          .append(std::to_string(std::sin(0.2 * static_cast<double>(i)) + std::cos(0.15 * static_cast<double>(k))));
     return row;
   });
   EXPECT_THAT(error("a.csv", matrix), HasSubstr("a matrix of 40 x 30 heights is no list of points"));
