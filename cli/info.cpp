@@ -11,6 +11,8 @@
 #include <eigencrust/stages.h>
 
 #include "command.h"
+#include "picture.h"
+#include "standard_streams.h"
 
 namespace eigencrust::cli {
 namespace {
@@ -243,26 +245,54 @@ void print(const nlohmann::ordered_json& j) {
   std::cout << "\n";
 }
 
+/// From a corner, the front, the right and above; z, which is the height in most clouds, points up.
+void draw(const std::string& path, PointCloud cloud) {
+  TriangleMesh points;
+  points.vertices = std::move(cloud.points);
+  points.vertex_attributes = std::move(cloud.attributes);
+  RenderOptions options;
+  options.width = 800;
+  options.height = 600;
+  options.point_size = 3;
+  options.up = {0, 0, 1};
+  std::vector<RenderOptions> sides;
+  for (const char* side : {"corner", "front", "right", "top"}) sides.push_back(seen_from(side, options));
+  write_picture(path, render_sides({points}, sides), 1, sides.size());
+}
+
+void check_drawing(const std::string& path) {
+  if (path.empty()) return;
+  if (is_standard_output(path))
+    throw Error(ErrorKind::usage, "--render", "standard output is for the figures", "name a file that ends in .png");
+  check_picture(path);
+}
+
 } // namespace
 
 int info_verb(const Arguments& arguments) {
   InputOptions input;
+  std::string picture;
   bool json = false;
   unsigned threads = 0;
   OptionTable app("What is in a point cloud.", "eigencrust info");
   add_input_options(app, input);
+  app.begin_chapter("Results");
+  app.add_option("--render", picture, "PNG to write: the points from a corner, the front, the right and above, z up")
+      ->type_name(file_to_write);
   app.begin_chapter("Running");
   app.add_flag("--json", json, "Print the figures as JSON");
   app.add_option("--threads", threads, "Threads, 0 for all cores")->capture_default_str();
   if (const Parsed parsed = parse(app, arguments); parsed.done) return parsed.status;
+  check_drawing(picture);
   ReadReport read;
-  const PointCloud cloud = read_inputs(input, read);
+  PointCloud cloud = read_inputs(input, read);
   const Threads team(threads);
   const nlohmann::ordered_json figures = collect(cloud, read, team);
   if (json)
     std::cout << figures.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
   else
     print(figures);
+  if (!picture.empty()) draw(picture, std::move(cloud));
   return 0;
 }
 

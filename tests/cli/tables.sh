@@ -75,8 +75,29 @@ test_shift_is_kept() {
   expect 0 far.xyz -o mesh.stl # STL's own offset
   equal offset "$(tail -1 mesh.stl.offset.txt | cut -d ' ' -f 3 | cut -c 1-3)" 300
   expect_error 2 "three numbers x,y,z" far.xyz -o mesh.ply --shift 1,2
+  cp far.xyz far.stl.offset.txt
+  expect_error 2 "the output would overwrite an input" far.stl.offset.txt -o far.stl --shift 1,2,3
+  rm far.stl.offset.txt
   rm mesh.ply mesh.stl mesh.stl.offset.txt
   expect_files far.xyz
+}
+
+test_units_of_several_jobs() {
+  sphere 300 >m.xyz
+  awk '{ print 1000 * $1, 1000 * $2, 1000 * $3 }' m.xyz >mm.xyz
+  expect 0 --each m.xyz mm.xyz -o 'mesh_{}.ply' --unit m --unit mm
+  expect 0 compare mesh_m.ply mesh_mm.ply
+  expect_error 2 "3 units or scales for 2 inputs" --each m.xyz mm.xyz -o 'mesh_{}.ply' --unit m --unit m --unit mm
+}
+
+test_info_draws_what_it_found() {
+  sphere 3000 | awk '{ print $1, $2, $3, int(127 + 12 * $1), 20, 200 }' >ball.xyz
+  expect 0 info ball.xyz --render ball.png
+  equal signature "$(head -c 4 ball.png | tail -c 3)" PNG
+  equal width "$(od -An -tu1 -j18 -N2 ball.png | awk '{ print 256 * $1 + $2 }')" 1600
+  expect_error 2 "end the name in .png" info ball.xyz --render ball.jpg
+  expect_error 2 "standard output is for the figures" info ball.xyz --render -
+  expect_error 2 "the output would overwrite an input" info ball.xyz --render ball.xyz
 }
 
 test_bounds_tell_minimum_from_maximum() {

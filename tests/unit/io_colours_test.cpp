@@ -83,12 +83,49 @@ TEST(IoColours, EveryFormComesOutInEveryFormat) {
       expect_colours(read_mesh(folder / name).vertex_attributes);
     }
     const PointCloud cloud{{{0, 0, 0}, {1, 0, 0}}, columns, {}};
-    for (const char* name : {"c.ply", "c.xyz", "c.csv"}) {
+    for (const char* name : {"c.ply", "c.pcd", "c.obj", "c.xyz", "c.csv"}) {
       write_point_cloud(folder / name, cloud);
       expect_colours(read_point_cloud(folder / name).attributes);
     }
     EXPECT_THAT(read_bytes(folder / "a.ply"), HasSubstr("property uchar red\n"));
   }
+}
+
+TEST(IoColours, LasStretchesThemTo16Bits) {
+  const TempDir folder;
+  for (const Columns& columns : all_forms()) {
+    SCOPED_TRACE(columns[0].name + " " + std::to_string(static_cast<int>(columns[0].type)));
+    write_point_cloud(folder / "c.las", PointCloud{{{0, 0, 0}, {1, 0, 0}}, columns, {}});
+    const PointCloud back = read_point_cloud(folder / "c.las");
+    for (const auto& [name, first, second] :
+         {std::tuple{"red", 0, 40}, std::tuple{"green", 255, 80}, std::tuple{"blue", 7, 160}}) {
+      const Attribute* channel = find_attribute(back.attributes, name);
+      ASSERT_NE(channel, nullptr) << name;
+      EXPECT_EQ(channel->type, ScalarType::uint16);
+      EXPECT_EQ(attribute_value(*channel, 0), 257 * first) << name;
+      EXPECT_EQ(attribute_value(*channel, 1), 257 * second) << name;
+    }
+  }
+}
+
+TEST(IoColours, TheOriginalColumnsStayInPcdAndLas) {
+  const TempDir folder;
+  // 8-bit values in 16-bit fields, and the names of another program.
+  for (const Columns& columns :
+       {three({"red", "green", "blue"}, ScalarType::uint16, {{{0, 40}, {255, 80}, {7, 160}}}),
+        three({"diffuse_red", "diffuse_green", "diffuse_blue"}, ScalarType::uint8, {{{0, 40}, {255, 80}, {7, 160}}})})
+    for (const char* name : {"c.pcd", "c.las"}) {
+      write_point_cloud(folder / name, PointCloud{{{0, 0, 0}, {1, 0, 0}}, columns, {}});
+      const PointCloud back = read_point_cloud(folder / name);
+      for (const Attribute& column : columns) {
+        const Attribute* original = find_attribute(
+            back.attributes,
+            column.name + (column.name == "red" || column.name == "green" || column.name == "blue" ? "_original" : ""));
+        ASSERT_NE(original, nullptr) << name << " " << column.name;
+        EXPECT_EQ(original->type, column.type);
+        EXPECT_EQ(original->values, column.values);
+      }
+    }
 }
 
 TEST(IoColours, TheOriginalColumnsStay) {
