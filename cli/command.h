@@ -63,8 +63,10 @@ void catch_interrupts();
 bool interrupted();
 
 void print_warning(const std::string& text);
-/// A few lines for people: counts, guarantees, size.
+/// A few lines for people: counts, guarantees, size. An open mesh has rims, and neither a volume nor a side.
 std::string describe(const MeshSummary& mesh);
+/// The same with what the run knows of it.
+std::string describe(const Report& report);
 /// 12345678 -> 12,345,678
 std::string grouped(std::uint64_t value);
 /// Three or four digits that matter.

@@ -24,7 +24,7 @@ int reconstruct_verb(const Arguments& arguments) {
   const Report& report = run.result.report;
   if (!request.quiet) {
     std::cout << request.output << ": " << grouped(report.points) << " points in " << run.cost() << "\n"
-              << describe(report.mesh);
+              << describe(report);
     if (report.one_sided)
       std::cout << "  one-sided scan: every line of sight is within "
                 << std::lround(report.one_sided->widest_angle * 180 / std::numbers::pi)

@@ -11,6 +11,7 @@
 #include "io/attributes.h"
 #include "io/colmap.h"
 #include "io/formats.h"
+#include "io/grid_sensor.h"
 #include "io/sensor_columns.h"
 #include "io/text.h"
 
@@ -221,6 +222,9 @@ PointCloud io::read_cloud(const FileContent& file, const ReadOptions& options, N
     if (const auto columns = find_sensor_columns(cloud)) {
       set_sensor_rows(cloud, columns->places);
       notes.push_back(columns->names + " read as the sensor's position of each point");
+    } else if (set_sensor_from_grid(cloud)) {
+      notes.emplace_back(
+          "the points lie on rays from the origin through the pixels of their grid: sensor at (0, 0, 0)");
     }
   }
   return cloud;

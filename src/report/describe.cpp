@@ -25,12 +25,25 @@ void describe_noise(std::vector<float> grid_spacing, Run& run) {
 }
 
 /// What the options promise and the mesh is not.
-std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Options& options) {
+std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Report& report) {
+  const Options& options = report.options;
   std::vector<std::string> broken;
-  if (!mesh.closed() && !options.facade && !options.trim) broken.emplace_back("closed");
+  if (!mesh.closed() && (report.surroundings.kind != SceneKind::facade || options.base) && !options.trim)
+    broken.emplace_back("closed");
   if (options.manifold && !mesh.manifold()) broken.emplace_back("manifold");
   if (options.manifold && !mesh.oriented()) broken.emplace_back("consistently oriented");
   return broken;
+}
+
+/// What to try where the samples lie like ground or a façade, and nothing tells which.
+std::string words_on_likely_facade(const std::optional<Axis>& axis) {
+  if (!axis) return {};
+  const std::string name = to_string(*axis);
+  if (*axis == Axis::plus_z)
+    return "; if this is ground with what stands on it, or a roof, --facade +z leaves it open below and --base closes "
+           "it with a flat base";
+  return "; if this is a facade, --facade " + name + " or --facade -" + name.substr(1) +
+         " (the side that it was seen from) leaves it open behind";
 }
 
 } // namespace
@@ -58,6 +71,8 @@ void describe(const SampleMeasures& measures, Run& run) {
 void describe(const Tetrahedralization& t, Run& run) { run.count("tetrahedra", t.tetrahedra.size()); }
 
 void describe(const Poles& poles, Run& run) { run.count("poles", poles.tetrahedron.size()); }
+
+void describe(const KnownBeforehand& known, Run& run) { run.report().surroundings = known.surroundings; }
 
 void describe(const LinesOfSight& sight, Run& run) {
   run.report().one_sided = sight.one_sided;
@@ -152,7 +167,8 @@ void describe(const UnsupportedTriangles& unsupported, Run& run) {
   if (report.unsupported_area > usual && !report.options.trim)
     run.warn(std::to_string(std::lround(100 * report.unsupported_area)) +
              " % of the surface's area was invented: no samples bear it out" +
-             (report.one_sided ? " (the sensors all lie on one side)" : "") + "; --trim leaves it out");
+             (report.one_sided ? " (the sensors all lie on one side)" : "") + "; --trim leaves it out" +
+             words_on_likely_facade(report.surroundings.likely_facade));
 }
 
 void describe(const PointResults& results, Run& run) {
@@ -161,7 +177,7 @@ void describe(const PointResults& results, Run& run) {
 
 void describe(const MeshSummary& mesh, Run& run) {
   run.report().mesh = mesh;
-  run.report().broken_guarantees = broken_guarantees(mesh, run.report().options);
+  run.report().broken_guarantees = broken_guarantees(mesh, run.report());
 }
 
 } // namespace eigencrust

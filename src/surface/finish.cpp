@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include "geometry/exact_difference.h"
+#include "surface/base.h"
 #include "surface/surface.h"
 
 namespace eigencrust {
@@ -16,8 +19,9 @@ bool is_exact_translation(const Tetrahedralization& t, const PointCloud& cloud, 
 }
 
 /// The surface in input coordinates with the attributes of its points and source_index. Unless the
-/// vertices were moved they are the input's rows bit for bit.
-TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, const PointCloud& cloud, bool moved) {
+/// vertices were moved they are the input's rows bit for bit. The last `invented` are no row's.
+TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, const PointCloud& cloud, bool moved,
+                         std::size_t invented) {
   TriangleMesh mesh;
   mesh.triangles = surface.mesh.triangles;
   std::vector<std::uint32_t> source;
@@ -25,9 +29,12 @@ TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, co
   for (const SampleIndex s : surface.sample_of) source.push_back(t.source[s]);
   mesh.vertices.reserve(source.size());
   for (std::size_t v = 0; v < source.size(); ++v)
-    mesh.vertices.push_back(moved ? surface.mesh.vertices[v] + t.origin : cloud.points[source[v]]);
+    mesh.vertices.push_back(moved || v >= source.size() - invented ? surface.mesh.vertices[v] + t.origin
+                                                                   : cloud.points[source[v]]);
   for (const Attribute& attribute : cloud.attributes) mesh.vertex_attributes.push_back(gather(attribute, source));
-  mesh.vertex_attributes.push_back(make_attribute("source_index", source));
+  std::vector<std::uint32_t> source_row = source;
+  std::fill(source_row.end() - static_cast<std::ptrdiff_t>(invented), source_row.end(), no_index);
+  mesh.vertex_attributes.push_back(make_attribute("source_index", source_row));
   if (!cloud.scan_index.empty()) {
     std::vector<std::uint32_t> scan;
     scan.reserve(source.size());
@@ -44,8 +51,17 @@ TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene
   const auto& [options, run, threads] = context;
   if (options.smooth > 0)
     run.stage("smoothing", [&] { smooth(surface.mesh, options.smoothing, options.smooth, threads); });
-  return run.stage("attributes",
-                   [&] { return finish_mesh(surface, scene.tetrahedralization, cloud, options.smooth > 0); });
+  std::optional<Base>& base = run.report().base;
+  base.reset();
+  if (options.base) {
+    const Axis front = run.report().surroundings.front;
+    base = close_with_base(front, scene.measures.model, surface);
+    const Vec3 axis = direction_of(front), place = base->level * axis + scene.tetrahedralization.origin;
+    base->level = dot(place, axis) * (axis.x + axis.y + axis.z);
+  }
+  return run.stage("attributes", [&] {
+    return finish_mesh(surface, scene.tetrahedralization, cloud, options.smooth > 0, base ? base->vertices : 0);
+  });
 }
 
 void check(const TriangleMesh& mesh, const PointCloud& cloud, const Scene& scene, const ValidateOptions& checks,
@@ -53,7 +69,7 @@ void check(const TriangleMesh& mesh, const PointCloud& cloud, const Scene& scene
   const auto& [options, run, threads] = context;
   run.stage("validate", [&] {
     // Faces of one Delaunay tetrahedralization do not cross, unless they were moved or rounded (docs/guarantees.md).
-    const bool cannot_cross = checks.self_intersections && options.smooth == 0 &&
+    const bool cannot_cross = checks.self_intersections && options.smooth == 0 && !options.base &&
                               is_exact_translation(scene.tetrahedralization, cloud, threads);
     ValidateOptions needed = checks;
     needed.self_intersections = checks.self_intersections && !cannot_cross;

@@ -192,6 +192,49 @@ test_trim_keeps_what_was_seen() {
   equal "one-sided" "$(value report.json /one_sided)" null
 }
 
+test_ground_has_rims_and_no_volume() {
+  awk 'BEGIN { for (i = 0; i < 1600; ++i) { x = i % 40; y = int(i / 40); print x, y, 2 * sin(x / 5) * cos(y / 6) } }' \
+    >ground.xyz
+  expect 0 ground.xyz -o open.ply --report report.json
+  grep -q 'closed: no (.* 1 rim)' out || die "the rim is not told"
+  grep -q '% of it covered by samples' out || die "the share covered is not told"
+  grep -q 'one side: seen from +z' out || die "the side is not told"
+  if grep -Eq 'volume|inward' out err; then die "an open mesh has no volume and looks nowhere"; fi
+  equal scene "$(value report.json /scene)" facade
+  equal facade "$(value report.json /facade)" +z
+  equal volume "$(value report.json /mesh/volume)" null
+  expect 6 check open.ply
+  if grep -Eq 'volume|inward' out; then die "an open mesh has no volume and looks nowhere"; fi
+  expect 0 ground.xyz -o closed.ply --facade off --report report.json
+  equal scene "$(value report.json /scene)" body
+}
+
+test_base_closes_ground() {
+  awk 'BEGIN { for (i = 0; i < 6400; ++i) { x = (i % 80) / 4 - 10; y = int(i / 80) / 4 - 10; r = sqrt(x * x + y * y);
+    print x, y, r < 4 ? 2.6 * (1 - r / 4) : 0 } }' >pile.xyz
+  expect 0 pile.xyz -o pile.ply --base --report report.json
+  grep -q 'above the plane of the rim' out || die "the volume of the pile is not told"
+  expect 0 check pile.ply --json
+  value report.json /base/volume_above_rim | awk '{ exit !($1 > 42.7 && $1 < 44.5) }' || die "the pile has 43.56"
+  expect_error 2 "leave out one" pile.xyz -o trimmed.ply --base --trim
+  sphere 1000 >ball.xyz
+  expect_error 2 "--facade +z" ball.xyz -o ball.ply --base
+}
+
+test_rooms_are_their_free_space() {
+  # A cube from within.
+  awk 'BEGIN { print "x y z sx sy sz"; n = 20
+    for (i = 0; i <= n; ++i) for (j = 0; j <= n; ++j) for (k = 0; k <= n; ++k)
+      if (i % n == 0 || j % n == 0 || k % n == 0) print i / 5, j / 5, k / 5, 1.9, 2.2, 1.6 }' >room.txt
+  expect 0 room.txt -o room.ply --report report.json
+  grep -q 'interior: free space of 64, walls of 96' out || die "the free space is not told"
+  if grep -Eq 'volume|inward' out; then die "a room has free space, and looks to the scanners"; fi
+  equal scene "$(value report.json /scene)" interior
+  expect 0 check room.ply
+  expect 0 room.txt -o body.ply --sensors none --report report.json
+  equal scene "$(value report.json /scene)" body
+}
+
 test_named_points_come_from_files() {
   { sphere 3000; sphere 1000 0.5; } >cloud.xyz
   echo '0 0 0' >middle.xyz
