@@ -124,7 +124,7 @@ struct Options {
   /// Find out what was scanned. From the sensors: whether they stand among the samples, in rooms
   /// (Report::surroundings), and whether all lie on one side (Report::one_sided; that makes trimming stricter and
   /// changes no label, docs/decisions/0020). Without any: whether the samples lie like ground with what stands on it;
-  /// that is a façade along +z. Not with the paper's weights. docs/decisions/0028.
+  /// that is a façade along +z. Not with the paper's weights. docs/decisions/0032.
   bool detect_facade = true;
   /// Close what was seen from one side with a flat base behind it; the surface's rim becomes its outline. Not with
   /// `trim`.

@@ -343,7 +343,7 @@ struct Partition {
   SolverStatus status = SolverStatus::trivial;
 };
 
-/// What was scanned; what lies beyond all samples follows from it (not in the paper; docs/decisions/0028).
+/// What was scanned; what lies beyond all samples follows from it (not in the paper; docs/decisions/0032).
 enum class SceneKind : std::uint8_t {
   body,     ///< something seen from outside: beyond the samples there is nothing
   interior, ///< rooms, seen from sensors among the samples: beyond the walls is the solid

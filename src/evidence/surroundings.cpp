@@ -127,12 +127,14 @@ double cap_of(const Scene& scene, int axis, const Threads& threads) {
                 spacing * spacing * depth_of_hull(scene, some[k], up, far)};
   };
   for_each_index(threads, some.size(), measure, costly_block);
-  double behind = 0, before = 0;
-  for (const auto& [below, above] : space) {
-    behind += below;
-    before += above;
+  double behind = 0, before = 0, shallow = 0;
+  constexpr double unevenness = 0.05; // in spacings: planes have as much by rounding and noise, on either side
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    behind += space[k][0];
+    before += space[k][1];
+    shallow += unevenness * std::pow(static_cast<double>(scene.measures.model.spacing[some[k].value]), 3);
   }
-  return before > 0 ? behind / before : 1;
+  return behind / std::max(before, shallow);
 }
 
 /// The part of the hull's area that each sample on it stands for; 0 for all others.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// What was scanned: a body, rooms from within, or one side of something that goes on behind
-/// (not in the paper; docs/decisions/0028).
+/// (not in the paper; docs/decisions/0032).
 #pragma once
 
 #include <span>

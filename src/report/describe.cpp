@@ -13,6 +13,7 @@
 #include "settle/minimum_energy.h"
 #include "surface/surface.h"
 #include "surface/trim.h"
+#include "surface/turned_over.h"
 
 namespace eigencrust {
 namespace {
@@ -32,12 +33,23 @@ std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Report
     broken.emplace_back("closed");
   if (options.manifold && !mesh.manifold()) broken.emplace_back("manifold");
   if (options.manifold && !mesh.oriented()) broken.emplace_back("consistently oriented");
+  const bool rooms = report.surroundings.kind == SceneKind::interior;
+  if (mesh.closed() && mesh.oriented() && (rooms ? mesh.volume > 0 : mesh.volume < 0))
+    broken.emplace_back(rooms ? "oriented to the scanners" : "outward oriented");
   return broken;
 }
 
-/// What to try where the samples lie like ground or a façade, and nothing tells which.
-std::string words_on_likely_facade(const std::optional<Axis>& axis) {
-  if (!axis) return {};
+/// What to try where the samples lie like ground or a façade, and nothing tells which; or where most of the surface was
+/// invented, so that this is hardly a body, and no sensor tells what it is.
+std::string words_on_what_it_is(const Report& report) {
+  const std::optional<Axis>& axis = report.surroundings.likely_facade;
+  constexpr double far_too_much = 1.0 / 3; // statues without their underside have a fifth
+  if (!axis)
+    return report.unsupported_area > far_too_much && report.sight_lines == 0 &&
+                   report.surroundings.kind == SceneKind::body
+               ? "; if this is ground with what stands on it, --facade +z leaves it open below; if the scanner stood "
+                 "amid the points, --sensor with its place, as --sensor 0,0,0, finds the free space around it"
+               : "";
   const std::string name = to_string(*axis);
   if (*axis == Axis::plus_z)
     return "; if this is ground with what stands on it, or a roof, --facade +z leaves it open below and --base closes "
@@ -68,7 +80,14 @@ void describe(const SampleMeasures& measures, Run& run) {
         "standard deviation of the noise");
 }
 
-void describe(const Tetrahedralization& t, Run& run) { run.count("tetrahedra", t.tetrahedra.size()); }
+void describe(const Tetrahedralization& t, Run& run) {
+  run.count("tetrahedra", t.tetrahedra.size());
+  constexpr double usual = 7, many = 3 * usual; // per sample; points that fill a volume have 6.8
+  const double share = static_cast<double>(t.tetrahedra.size()) / static_cast<double>(t.sample_count);
+  if (share > many)
+    run.warn("there are " + std::to_string(std::lround(share)) + " tetrahedra per sample instead of " +
+             std::to_string(std::lround(usual)) + ": the run takes as many times the memory and time of the forecast");
+}
 
 void describe(const Poles& poles, Run& run) { run.count("poles", poles.tetrahedron.size()); }
 
@@ -168,7 +187,15 @@ void describe(const UnsupportedTriangles& unsupported, Run& run) {
     run.warn(std::to_string(std::lround(100 * report.unsupported_area)) +
              " % of the surface's area was invented: no samples bear it out" +
              (report.one_sided ? " (the sensors all lie on one side)" : "") + "; --trim leaves it out" +
-             words_on_likely_facade(report.surroundings.likely_facade));
+             words_on_what_it_is(report));
+}
+
+void describe(const TurnedOver& turned, Run& run) {
+  run.count("not_smoothed", static_cast<double>(turned.pieces));
+  if (turned.pieces > 0)
+    run.warn(std::to_string(turned.pieces) + (turned.pieces == 1 ? " piece" : " pieces") +
+             " would have been flattened or turned inside out by smoothing and stayed as before; give fewer steps with "
+             "--smooth");
 }
 
 void describe(const PointResults& results, Run& run) {

@@ -11,6 +11,7 @@
 #include "geometry/mesh_topology.h"
 #include "numerics/dense.h"
 #include "numerics/quantile.h"
+#include "surface/trim.h"
 
 namespace eigencrust {
 namespace {
@@ -44,6 +45,18 @@ std::vector<std::uint32_t> only_rim(const TriangleMesh& mesh) {
   if (rim.size() != edges)
     refuse("the surface has more than one rim", "--components largest keeps the largest piece; or leave out --base");
   return rim;
+}
+
+/// Where samples lie exactly above one another's edges, as those of a map's squares do, the hull hangs straight down
+/// from its rim: there the walls of the base will stand.
+void drop_upright_at_rim(const Vec3& along, Surface& surface) {
+  constexpr double upright = 1e-9; // sine of the slope to the axis
+  std::vector<std::uint8_t> marked(surface.mesh.triangles.size());
+  for (std::size_t i = 0; i < marked.size(); ++i) {
+    const Vec3 normal = area_vector(surface.mesh, i);
+    marked[i] = std::fabs(dot(normal, along)) <= upright * norm(normal);
+  }
+  trim(marked_at_rim(surface.mesh, marked), surface);
 }
 
 /// Coordinates across and along the front: seen from there, u runs to the right and v upwards.
@@ -158,6 +171,7 @@ double volume_above(const TriangleMesh& mesh, const Frame& frame, const Vec3& pl
 } // namespace
 
 Base close_with_base(Axis front, const SampleModel& model, Surface& surface) {
+  drop_upright_at_rim(direction_of(front), surface);
   TriangleMesh& mesh = surface.mesh;
   const std::vector<std::uint32_t> rim = only_rim(mesh);
   const Frame frame(front);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A flat base under what was seen from one side (not in the paper; docs/decisions/0028).
+/// A flat base under what was seen from one side (not in the paper; docs/decisions/0032).
 #pragma once
 
 #include <eigencrust/stages.h>

@@ -4,6 +4,7 @@
 #include "geometry/exact_difference.h"
 #include "surface/base.h"
 #include "surface/surface.h"
+#include "surface/turned_over.h"
 
 namespace eigencrust {
 namespace {
@@ -18,8 +19,32 @@ bool is_exact_translation(const Tetrahedralization& t, const PointCloud& cloud, 
   return rounded == 0;
 }
 
+/// Smoothes, and puts the vertices into input coordinates: where these round, neighbours could meet.
+TurnedOver smooth_in_place(Surface& surface, const Tetrahedralization& t, const PointCloud& cloud,
+                           const Options& options, const Threads& threads) {
+  smooth(surface.mesh, options.smoothing, options.smooth, threads);
+  std::vector<Vec3> rows;
+  rows.reserve(surface.sample_of.size());
+  for (const SampleIndex s : surface.sample_of) rows.push_back(cloud.points[t.source[s]]);
+  for (std::size_t v = 0; v < rows.size(); ++v) {
+    Vec3& place = surface.mesh.vertices[v];
+    place = place == t.positions[surface.sample_of[v]] ? rows[v] : place + t.origin;
+  }
+  return take_back_turned(rows, surface.mesh, threads);
+}
+
+/// \param moved are the vertices in input coordinates already?
+Base put_on_base(Surface& surface, const Scene& scene, bool moved, Axis front) {
+  Base base = close_with_base(front, scene.measures.model, surface);
+  const Vec3 axis = direction_of(front);
+  const Vec3 place = base.level * axis + (moved ? Vec3{} : scene.tetrahedralization.origin);
+  base.level = dot(place, axis) * (axis.x + axis.y + axis.z);
+  return base;
+}
+
 /// The surface in input coordinates with the attributes of its points and source_index. Unless the
-/// vertices were moved they are the input's rows bit for bit. The last `invented` are no row's.
+/// vertices were moved, and are in input coordinates, they are the input's rows bit for bit. The last `invented` are no
+/// row's.
 TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, const PointCloud& cloud, bool moved,
                          std::size_t invented) {
   TriangleMesh mesh;
@@ -29,8 +54,11 @@ TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, co
   for (const SampleIndex s : surface.sample_of) source.push_back(t.source[s]);
   mesh.vertices.reserve(source.size());
   for (std::size_t v = 0; v < source.size(); ++v)
-    mesh.vertices.push_back(moved || v >= source.size() - invented ? surface.mesh.vertices[v] + t.origin
-                                                                   : cloud.points[source[v]]);
+    if (moved)
+      mesh.vertices.push_back(surface.mesh.vertices[v]);
+    else
+      mesh.vertices.push_back(v < source.size() - invented ? cloud.points[source[v]]
+                                                           : surface.mesh.vertices[v] + t.origin);
   for (const Attribute& attribute : cloud.attributes) mesh.vertex_attributes.push_back(gather(attribute, source));
   std::vector<std::uint32_t> source_row = source;
   std::fill(source_row.end() - static_cast<std::ptrdiff_t>(invented), source_row.end(), no_index);
@@ -50,15 +78,10 @@ TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, co
 TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene, const Context& context) {
   const auto& [options, run, threads] = context;
   if (options.smooth > 0)
-    run.stage("smoothing", [&] { smooth(surface.mesh, options.smoothing, options.smooth, threads); });
+    run.stage("smoothing", [&] { return smooth_in_place(surface, scene.tetrahedralization, cloud, options, threads); });
   std::optional<Base>& base = run.report().base;
   base.reset();
-  if (options.base) {
-    const Axis front = run.report().surroundings.front;
-    base = close_with_base(front, scene.measures.model, surface);
-    const Vec3 axis = direction_of(front), place = base->level * axis + scene.tetrahedralization.origin;
-    base->level = dot(place, axis) * (axis.x + axis.y + axis.z);
-  }
+  if (options.base) base = put_on_base(surface, scene, options.smooth > 0, run.report().surroundings.front);
   return run.stage("attributes", [&] {
     return finish_mesh(surface, scene.tetrahedralization, cloud, options.smooth > 0, base ? base->vertices : 0);
   });

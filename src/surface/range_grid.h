@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Which samples a scanner saw side by side, and where its range jumps between them
-/// (not in the paper; docs/decisions/0028).
+/// (not in the paper; docs/decisions/0032).
 #pragma once
 
 #include <span>

@@ -235,6 +235,27 @@ test_rooms_are_their_free_space() {
   equal scene "$(value report.json /scene)" body
 }
 
+# One turn of a scanner on the road between houses: nothing but the user knows where it stood.
+test_what_is_hardly_a_body_names_options_that_work() {
+  awk '
+    BEGIN { turn = atan2(0, -1) / 180
+      for (beam = -9; beam <= 31; beam += 2) for (k = 0; k < 360; ++k) {
+        x = cos(beam * turn) * cos(k * turn); y = cos(beam * turn) * sin(k * turn); z = sin(beam * turn)
+        far = 20 / (x * x > 1e-6 ? sqrt(x * x) : 1e-3); if (33 / sqrt(y * y + 1e-6) < far) far = 33 / sqrt(y * y + 1e-6)
+        if (z < 0 && -2 / z < far) far = -2 / z
+        print far * x, far * y, far * z } }' >street.xyz
+  expect 0 street.xyz -o body.ply
+  grep -q 'ground with what stands on it, --facade +z.* --sensor 0,0,0' err || die "the options are not named"
+  expect 0 street.xyz -o ground.ply --facade +z
+  grep -q '1 component, genus 0' out || die "the street is not in one piece"
+  grep -q 'one side: seen from +z, solid behind' out || die "the option does not work"
+  expect 0 street.xyz -o free.ply --sensor 0,0,0
+  grep -q 'interior: free space of' out || die "the sensor does not tell the free space"
+  sphere 1000 >ball.xyz
+  expect 0 ball.xyz -o ball.ply
+  [ ! -s err ] || die "a ball is a body: $(cat err)"
+}
+
 test_named_points_come_from_files() {
   { sphere 3000; sphere 1000 0.5; } >cloud.xyz
   echo '0 0 0' >middle.xyz

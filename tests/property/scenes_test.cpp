@@ -137,12 +137,35 @@ TEST(Scenes, ABaseClosesAPile) {
     EXPECT_GT(mesh.volume, 0);
     ASSERT_TRUE(result.report.base.has_value());
     EXPECT_NEAR(result.report.base->volume_above_rim / volume_of_pile, 1, 0.02) << slope;
-    if (slope == 0) EXPECT_NEAR(mesh.volume / volume_of_pile, 1, 0.02);
+    if (slope == 0) {
+      EXPECT_NEAR(mesh.volume / volume_of_pile, 1, 0.02);
+    }
     const Attribute& source = *find_attribute(result.mesh.vertex_attributes, "source_index");
     std::size_t invented = 0;
     for (std::size_t v = 0; v < source.rows(); ++v) invented += attribute_value(source, v) == no_index;
     EXPECT_EQ(invented, result.report.base->vertices);
     EXPECT_EQ(result.mesh.vertices.back().z, result.report.base->level);
+  }
+}
+
+TEST(Scenes, ABaseStandsUnderASquareMap) {
+  // Far away, on whole numbers: the rows at the map's edges are exactly in line.
+  PointCloud cloud;
+  for (int x = 0; x < 40; ++x)
+    for (int y = 0; y < 40; ++y)
+      cloud.points.push_back({455000.0 + x, 5880000.0 + y, 40 + 2 * std::sin(0.3 * x) + 1.5 * std::cos(0.4 * y + 1)});
+  Options options;
+  options.base = true;
+  for (const std::uint32_t smooth : {0u, 3u}) {
+    options.smooth = smooth;
+    const Result result = reconstruct(cloud, options);
+    const MeshSummary& mesh = result.report.mesh;
+    EXPECT_TRUE(mesh.closed() && mesh.manifold() && mesh.oriented());
+    EXPECT_EQ(mesh.self_intersections, 0);
+    EXPECT_EQ(mesh.genus, 0);
+    EXPECT_GT(result.mesh.vertices.size() - result.report.base->vertices, 1590u);
+    EXPECT_LT(result.report.base->level, 38);
+    EXPECT_GT(result.report.base->level, 35);
   }
 }
 
