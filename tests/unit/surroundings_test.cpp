@@ -55,7 +55,7 @@ TEST(HullSight, IsThatOfTheSensors) {
 TEST(HullSight, SharesASampleOfSeveralSensors) {
   PointCloud cloud = seen_from(clouds::cube_surface(8), {3.9, 4.2, 4.5});
   const std::size_t n = cloud.points.size();
-  cloud.sensors.push_back({{3.7, 4.3, 50}, false}); // its lines run within no plane of the lattice
+  cloud.sensors.push_back({{3.7, 4.45, 50}, false}); // its lines run within no plane of the lattice
   for (std::size_t i = 0; i < n; ++i) {
     cloud.points.push_back(cloud.points[i]);
     cloud.sensor_of.push_back(1);
