@@ -125,8 +125,7 @@ nlohmann::ordered_json collect(const PointCloud& cloud, const ReadReport& read, 
   json["scans"] = scans;
   json["grids"] = nlohmann::ordered_json::array();
   if (const auto grids = find_grids(cloud))
-    for (const ScanGrids::Size& size : grids->sizes)
-      json["grids"].push_back({{"columns", size.columns}, {"rows", size.rows}});
+    for (const ScanGrid& size : grids->sizes) json["grids"].push_back({{"columns", size.columns}, {"rows", size.rows}});
   collect_sensors(cloud, json);
   json["attributes"] = nlohmann::ordered_json::array();
   for (const Attribute& a : cloud.attributes)

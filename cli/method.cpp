@@ -95,9 +95,10 @@ void add_method_options(OptionTable& app, Request& r) {
       ->type_name("L");
   app.add_option(
          "--facade", r.facade,
-         "One-sided scan: auto (found from the sensors), off, or outside in front along +x -x +y -y +z or -z: the "
-         "mesh stays open [auto]")
+         "One-sided scan: auto (found out: rooms and one side from the sensors, ground from how the samples lie), "
+         "off, or outside in front along +x -x +y -y +z or -z: the mesh stays open [auto]")
       ->usually_of({"auto", "off", "+x", "-x", "+y", "-y", "+z", "-z"});
+  app.add_flag("--base", r.base, "Close ground or a facade with a flat base behind it: the volume of a pile");
   app.add_flag("--trim", r.trim, "Leave out triangles that the samples do not bear out: the mesh is then open");
 }
 
@@ -145,6 +146,7 @@ Options effective_options(const Request& r) {
   if (r.max_steps) o.solver.max_steps = *r.max_steps;
   o.manifold = r.manifold;
   o.trim = r.trim;
+  o.base = r.base;
   if (!r.components.empty()) o.components = parse_components(r.components);
   if (r.smooth) o.smooth = *r.smooth;
   if (!r.smoothing.empty()) o.smoothing = parse_smoothing(r.smoothing);

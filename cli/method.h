@@ -21,6 +21,7 @@ struct Request {
   std::string weights, second_stage, eigensolver, questionable, grid_spacing, noise, components, smoothing, facade;
   bool manifold = Options{}.manifold; // on in both presets
   bool trim = Options{}.trim;
+  bool base = Options{}.base;
   std::optional<std::uint32_t> smooth;
   std::optional<double> tolerance;
   std::string crossing_depth;

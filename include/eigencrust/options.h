@@ -49,7 +49,6 @@ enum class ManifoldRule : std::uint8_t {
   cheapest, ///< the strand, component or path, inside or outside, with the least certain labels
   paper     ///< inside tetrahedra only: all strands but the strongest, all components but the pole's
 };
-enum class Axis : std::uint8_t { plus_x, minus_x, plus_y, minus_y, plus_z, minus_z };
 
 /// A length that may be found out from the cloud.
 struct LengthChoice {
@@ -122,9 +121,14 @@ struct Options {
   std::optional<double> crossing_depth;
   /// One-sided scan: outside is in front, along this direction (§3.1). The result is then open.
   std::optional<Axis> facade;
-  /// Find out from the sensors whether the scan is one-sided; Report::one_sided. That makes trimming stricter and
-  /// changes no label: docs/decisions/0020.
+  /// Find out what was scanned. From the sensors: whether they stand among the samples, in rooms
+  /// (Report::surroundings), and whether all lie on one side (Report::one_sided; that makes trimming stricter and
+  /// changes no label, docs/decisions/0020). Without any: whether the samples lie like ground with what stands on it;
+  /// that is a façade along +z. Not with the paper's weights. docs/decisions/0032.
   bool detect_facade = true;
+  /// Close what was seen from one side with a flat base behind it; the surface's rim becomes its outline. Not with
+  /// `trim`.
+  bool base = false;
   /// Leave out triangles that the samples do not bear out, see unsupported_triangles(). The result is then open.
   bool trim = false;
   /// Also say of every input row whether it belongs to the surface, and its normal: Result::inlier,
@@ -149,6 +153,7 @@ std::string to_string(GlobalSign value);
 std::string to_string(ManifoldRule value);
 std::string to_string(Smoothing value);
 std::string to_string(Axis value);
+std::string to_string(SceneKind value);
 std::string to_string(const LengthChoice& value);
 std::string to_string(const KeepComponents& value);
 

@@ -33,6 +33,9 @@ constexpr Names<Axis, 6> axes{{{Axis::plus_x, "+x"},
                                {Axis::plus_z, "+z"},
                                {Axis::minus_z, "-z"}}};
 
+constexpr Names<SceneKind, 3> scene_kinds{
+    {{SceneKind::body, "body"}, {SceneKind::interior, "interior"}, {SceneKind::facade, "facade"}}};
+
 template <class Value, std::size_t n>
 std::string name_of(const Names<Value, n>& names, Value value) {
   for (const auto& [v, name] : names)
@@ -101,6 +104,7 @@ std::string to_string(Questionable value) { return name_of(questionables, value)
 std::string to_string(GlobalSign value) { return name_of(global_signs, value); }
 std::string to_string(ManifoldRule value) { return name_of(manifold_rules, value); }
 std::string to_string(Smoothing value) { return name_of(smoothings, value); }
+std::string to_string(SceneKind value) { return name_of(scene_kinds, value); }
 std::string to_string(Axis value) { return name_of(axes, value); }
 
 std::string to_string(const LengthChoice& value) {
@@ -199,6 +203,7 @@ void check_options(const Options& options) {
   require(options.solver.max_steps >= 1, "the solver may take no step", "allow at least one");
   require(!options.crossing_depth || (*options.crossing_depth >= 0 && std::isfinite(*options.crossing_depth)),
           "the crossing depth is negative", "give a length, 0 or more");
+  require(!options.base || !options.trim, "--base closes what --trim opens", "leave out one of them");
   require(options.smooth <= 1000, "more than 1000 smoothing steps", "use fewer");
   require(options.threads <= 1024, "more than 1024 threads", "use fewer");
   for (const auto* points : {&options.outside_points, &options.inside_points})
