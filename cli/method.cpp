@@ -19,6 +19,10 @@ void add_method_options(CLI::App& app, Request& r) {
   app.add_option("--preset", r.preset,
                  "robust: the measured best; paper: Kolluri, Shewchuk, O'Brien 2004 to the letter")
       ->capture_default_str();
+  app.add_option("--method", r.method,
+                 "Which surface: eigencrust, or to compare powercrust, spectral-powercrust, tight-cocone, "
+                 "robust-cocone, spectral-cocone" +
+                     defaults(to_string(robust.method), to_string(paper.method)));
   app.add_option("--noise", r.noise,
                  "Standard deviation of the noise: auto (measured at the samples), off, a length, N%" +
                      defaults(to_string(robust.noise), to_string(paper.noise)));
@@ -88,6 +92,7 @@ void add_run_options(CLI::App& app, Request& r) {
 
 Options effective_options(const Request& r) {
   Options o = Options::of(parse_preset(r.preset));
+  if (!r.method.empty()) o.method = parse_method(r.method);
   if (!r.grid_spacing.empty()) o.grid_spacing = parse_length_choice("grid spacing", r.grid_spacing);
   if (!r.noise.empty()) o.noise = parse_length_choice("noise", r.noise);
   if (!r.questionable.empty()) o.questionable = parse_questionable(r.questionable);

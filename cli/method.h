@@ -14,7 +14,7 @@ namespace eigencrust::cli {
 struct Request {
   InputOptions input;
   std::string output, report, progress = "auto", dump_stages;
-  std::string preset = to_string(Preset::robust);
+  std::string preset = to_string(Preset::robust), method;
   std::string weights, second_stage, eigensolver, questionable, grid_spacing, noise, components, smoothing, facade;
   bool manifold = Options{}.manifold; // on in both presets
   bool trim = Options{}.trim;

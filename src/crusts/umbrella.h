@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The cocone faces around one sample, and what they separate.
+#pragma once
+
+#include "crusts/cocone.h"
+#include "tetrahedra/star.h"
+
+namespace eigencrust {
+
+/// Looks at one star after the other.
+class Umbrellas {
+ public:
+  Umbrellas(const Scene& scene, const Cocone& cocone)
+      : t_(scene.tetrahedralization), scene_(scene), cocone_(cocone), star_(t_, scene.stars) {}
+
+  /// Is the sample flat, and do its two poles lie in different parts of its star, each bounded by a disc that is
+  /// nowhere folded more than 120°?
+  [[nodiscard]] bool is_good(SampleIndex s);
+
+  struct Part {
+    std::vector<TetrahedronIndex> tetrahedra;
+    std::vector<SampleIndex> rim; ///< of the faces that bound it; may name some twice
+    bool has_pole = false;        ///< one of the sample's two
+  };
+  /// The part of the star of s that holds a tetrahedron.
+  [[nodiscard]] Part part_of(SampleIndex s, TetrahedronIndex from);
+
+ private:
+  struct Side { ///< of a face at the sample, seen from inside a part
+    SampleIndex from, to;
+  };
+  void flood(std::uint32_t start);
+  [[nodiscard]] bool is_wall(std::uint32_t i, std::size_t k) const;
+  [[nodiscard]] std::uint32_t place_of(TetrahedronIndex i) const;
+  [[nodiscard]] std::vector<Side> rim() const;
+  [[nodiscard]] bool is_disc(SampleIndex s) const;
+
+  const Tetrahedralization& t_;
+  const Scene& scene_;
+  const Cocone& cocone_;
+  Star star_;
+  SampleIndex sample_;
+  std::vector<std::uint8_t> in_part_; ///< by place in the star
+  std::vector<std::uint32_t> stack_;
+};
+
+} // namespace eigencrust
