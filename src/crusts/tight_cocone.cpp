@@ -16,7 +16,8 @@ class Peeling {
         t_(scene.tetrahedralization),
         umbrellas_(scene, cocone),
         good_(t_.sample_count),
-        marked_(t_.tetrahedra.size(), 0),
+        oriented_(t_.sample_count, 0),
+        marked_(t_.tetrahedra.size()),
         peeled_(t_.tetrahedra.size(), Label::inside) {
     for_blocks(threads, t_.sample_count, costly_block, [&](std::size_t begin, std::size_t end, std::size_t) {
       Umbrellas own(scene, cocone);
@@ -25,17 +26,13 @@ class Peeling {
   }
 
   Labels run() && {
-    mark_from_the_cube();
+    for (TetrahedronIndex i{0}; i.value < t_.tetrahedra.size(); ++i.value)
+      if (t_.touches_cube(i)) orient_at(i);
     for (TetrahedronIndex i{0}; i.value < t_.tetrahedra.size(); ++i.value)
       if (t_.touches_cube(i)) peel(i);
     peel_on();
     // Good samples that nothing came to lie inside, or their patch hangs loose in there: they hold nothing up.
-    std::vector<std::uint8_t> reached(t_.sample_count, 0);
-    for (TetrahedronIndex i{0}; i.value < t_.tetrahedra.size(); ++i.value)
-      if (peeled_[i] == Label::outside)
-        for (const SampleIndex s : t_.tetrahedra[i])
-          if (!t_.is_corner(s)) reached[s.value] = 1;
-    for (std::uint32_t s = 0; s < t_.sample_count; ++s) good_[s] = good_[s] && reached[s];
+    for (std::uint32_t s = 0; s < t_.sample_count; ++s) good_[s] = good_[s] && oriented_[s];
     for (TetrahedronIndex i{0}; i.value < t_.tetrahedra.size(); ++i.value)
       if (peeled_[i] == Label::outside) stack_.push_back(i);
     peel_on();
@@ -43,42 +40,36 @@ class Peeling {
   }
 
  private:
+  struct Mark { ///< what the umbrellas of a tetrahedron's corners say
+    bool outside = false, inside = false;
+  };
+
   [[nodiscard]] bool is_good(SampleIndex s) const { return !t_.is_corner(s) && good_[s.value]; }
 
-  /// From good sample to good sample along their umbrellas: the part of a star that holds something outside is outside.
-  void mark_from_the_cube() {
-    for (TetrahedronIndex i{0}; i.value < t_.tetrahedra.size(); ++i.value)
-      if (t_.touches_cube(i)) marked_[i] = 1;
-    for (TetrahedronIndex i{0}; i.value < t_.tetrahedra.size(); ++i.value)
-      if (marked_[i])
-        for (const SampleIndex s : t_.tetrahedra[i])
-          if (is_good(s)) mark(s, i);
+  /// The good samples of a tetrahedron that is outside, and from them along umbrellas all others.
+  void orient_at(TetrahedronIndex outside) {
+    for (const SampleIndex s : t_.tetrahedra[outside])
+      if (is_good(s)) samples_.emplace_back(s, outside);
     while (!samples_.empty()) {
       const auto [s, i] = samples_.back();
       samples_.pop_back();
-      mark(s, i);
+      if (!oriented_[s.value]) orient(s, i);
     }
   }
 
-  /// The part of the star of s around i, which is outside.
-  void mark(SampleIndex s, TetrahedronIndex i) {
-    const Umbrellas::Part part = umbrellas_.part_of(s, i);
-    if (!part.has_pole) return; // between the faces of a flat tetrahedron
-    bool some = false;
-    for (const TetrahedronIndex n : part.tetrahedra) {
-      some = some || !marked_[n];
-      if (!marked_[n]) fresh_.push_back(n);
-      marked_[n] = 1;
+  /// The side of the umbrella of s on which a tetrahedron lies is outside, the other inside.
+  void orient(SampleIndex s, TetrahedronIndex outside) {
+    const auto [out, in] = umbrellas_.sides_of(s, outside);
+    if (out.tetrahedra.empty()) return;
+    oriented_[s.value] = 1;
+    for (const TetrahedronIndex i : in.tetrahedra) marked_[i].inside = true;
+    for (const TetrahedronIndex i : out.tetrahedra) {
+      marked_[i].outside = true;
+      for (const TetrahedronIndex beside : t_.neighbours[i])
+        if (beside.valid() && peeled_[beside] == Label::outside) stack_.push_back(beside); // it may be open now
     }
-    if (!some) return;
-    for (const SampleIndex q : part.rim) {
-      if (!is_good(q)) continue;
-      for (const TetrahedronIndex n : part.tetrahedra)
-        if (const auto& v = t_.tetrahedra[n]; std::find(v.begin(), v.end(), q) != v.end()) {
-          samples_.emplace_back(q, n);
-          break;
-        }
-    }
+    for (const auto& [q, behind] : out.rim)
+      if (is_good(q) && !oriented_[q.value]) samples_.emplace_back(q, behind);
   }
 
   void peel(TetrahedronIndex i) {
@@ -94,25 +85,15 @@ class Peeling {
       for (std::size_t k = 0; k < 4; ++k)
         if (const TetrahedronIndex n = t_.neighbours[i][k]; n.valid() && peeled_[n] == Label::inside && opens(i, n))
           peel(n);
-      // Good samples that the marking did not come to, past places without a cocone.
-      fresh_.clear();
-      for (const SampleIndex s : t_.tetrahedra[i])
-        if (is_good(s)) mark(s, i);
-      while (!samples_.empty()) {
-        const auto [s, n] = samples_.back();
-        samples_.pop_back();
-        mark(s, n);
-      }
-      for (const TetrahedronIndex n : fresh_)
-        for (const TetrahedronIndex beside : t_.neighbours[n])
-          if (beside.valid() && peeled_[beside] == Label::outside) peel(n);
+      // Good samples that no umbrella led to, past places without a cocone.
+      orient_at(i);
     }
   }
 
-  /// May what lies outside in `from` go on into `to`? It may where that is marked, and through all but the smallest
-  /// face where no corner is good.
+  /// May what lies outside in `from` go on into `to`? It may where the umbrellas say so and none contradicts, and
+  /// through all but the smallest face where no corner is good.
   [[nodiscard]] bool opens(TetrahedronIndex from, TetrahedronIndex to) const {
-    if (marked_[to]) return true;
+    if (marked_[to].inside || marked_[to].outside) return !marked_[to].inside;
     const auto& v = t_.tetrahedra[to];
     if (std::any_of(v.begin(), v.end(), [&](SampleIndex s) { return is_good(s); })) return false;
     return t_.neighbours[to][smallest_face(to)] != from;
@@ -140,10 +121,11 @@ class Peeling {
   const Tetrahedralization& t_;
   Umbrellas umbrellas_;
   std::vector<std::uint8_t> good_;
-  IndexedArray<TetrahedronIndex, std::uint8_t> marked_; ///< outside, by the umbrellas
-  Labels peeled_;                                       ///< outside: reached from the cube
+  std::vector<std::uint8_t> oriented_; ///< good samples whose outer side is known
+  IndexedArray<TetrahedronIndex, Mark> marked_;
+  Labels peeled_; ///< outside: reached from the cube
   std::vector<std::pair<SampleIndex, TetrahedronIndex>> samples_;
-  std::vector<TetrahedronIndex> stack_, fresh_;
+  std::vector<TetrahedronIndex> stack_;
 };
 
 } // namespace

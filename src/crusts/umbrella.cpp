@@ -2,6 +2,7 @@
 #include "crusts/umbrella.h"
 
 #include <algorithm>
+#include <array>
 
 #include "geometry/tetrahedron.h"
 
@@ -56,7 +57,7 @@ std::vector<Umbrellas::Side> Umbrellas::rim() const {
       std::array<SampleIndex, 3> face{};
       for (std::size_t c = 0; c < 3; ++c) face[c] = v[face_opposite[opposite][c]];
       std::rotate(face.begin(), std::find(face.begin(), face.end(), sample_), face.end());
-      rim.push_back({face[1], face[2]});
+      rim.push_back({face[1], face[2], star_[i]});
     }
   }
   return rim;
@@ -99,20 +100,32 @@ bool Umbrellas::is_good(SampleIndex s) {
   return is_disc(s);
 }
 
-Umbrellas::Part Umbrellas::part_of(SampleIndex s, TetrahedronIndex from) {
-  star_.fill(s);
-  sample_ = s;
-  flood(place_of(from));
+Umbrellas::Part Umbrellas::part() const {
   Part part;
-  const auto [first, second] = scene_.poles.of_sample[s];
-  for (std::uint32_t i = 0; i < star_.size(); ++i) {
-    if (!in_part_[i]) continue;
-    part.tetrahedra.push_back(star_[i]);
-    part.has_pole = part.has_pole || star_[i] == scene_.poles.tetrahedron[first] ||
-                    (second.valid() && star_[i] == scene_.poles.tetrahedron[second]);
+  for (std::uint32_t i = 0; i < star_.size(); ++i)
+    if (in_part_[i]) part.tetrahedra.push_back(star_[i]);
+  for (const auto& [a, b, behind] : rim()) {
+    part.rim.emplace_back(a, behind);
+    part.rim.emplace_back(b, behind);
   }
-  for (const auto& [a, b] : rim()) part.rim.insert(part.rim.end(), {a, b});
   return part;
+}
+
+std::pair<Umbrellas::Part, Umbrellas::Part> Umbrellas::sides_of(SampleIndex s, TetrahedronIndex from) {
+  star_.fill(s);
+  const auto [first, second] = scene_.poles.of_sample[s];
+  const std::array poles{place_of(scene_.poles.tetrahedron[first]), place_of(scene_.poles.tetrahedron[second])};
+  const std::uint32_t start = place_of(from);
+  std::array<Part, 2> side;
+  bool here = false;
+  for (std::size_t k = 0; k < 2; ++k) {
+    flood(poles[k]);
+    const bool holds_it = in_part_[start] != 0;
+    here = here || holds_it;
+    side[holds_it ? 0 : 1] = part();
+  }
+  if (!here) return {};
+  return {std::move(side[0]), std::move(side[1])};
 }
 
 } // namespace eigencrust

@@ -3,6 +3,8 @@
 /// The cocone faces around one sample, and what they separate.
 #pragma once
 
+#include <utility>
+
 #include "crusts/cocone.h"
 #include "tetrahedra/star.h"
 
@@ -20,20 +22,23 @@ class Umbrellas {
 
   struct Part {
     std::vector<TetrahedronIndex> tetrahedra;
-    std::vector<SampleIndex> rim; ///< of the faces that bound it; may name some twice
-    bool has_pole = false;        ///< one of the sample's two
+    std::vector<std::pair<SampleIndex, TetrahedronIndex>>
+        rim; ///< of the faces that bound it, each with its tetrahedron
   };
-  /// The part of the star of s that holds a tetrahedron.
-  [[nodiscard]] Part part_of(SampleIndex s, TetrahedronIndex from);
+  /// What lies on the side of the umbrella of s where a tetrahedron of its star is, and on the other; both empty where
+  /// the tetrahedron lies between the faces of a flat one, on neither.
+  [[nodiscard]] std::pair<Part, Part> sides_of(SampleIndex s, TetrahedronIndex from);
 
  private:
   struct Side { ///< of a face at the sample, seen from inside a part
     SampleIndex from, to;
+    TetrahedronIndex behind; ///< in the part
   };
   void flood(std::uint32_t start);
   [[nodiscard]] bool is_wall(std::uint32_t i, std::size_t k) const;
   [[nodiscard]] std::uint32_t place_of(TetrahedronIndex i) const;
   [[nodiscard]] std::vector<Side> rim() const;
+  [[nodiscard]] Part part() const;
   [[nodiscard]] bool is_disc(SampleIndex s) const;
 
   const Tetrahedralization& t_;
