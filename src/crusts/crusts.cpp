@@ -85,7 +85,12 @@ void reconstruct_power_crust(const PointCloud& cloud, const Context& context, Re
 } // namespace
 
 void reconstruct_crust(const PointCloud& cloud, const Context& context, Result& result) {
+  if (context.options.method == Method::eigencrust || context.options.method == Method::spectral_cocone) {
+    const bool all = context.options.method == Method::eigencrust;
+    return reconstruct_spectral(all ? cloud : outer_boundary(cloud, context), context, result);
+  }
   const Options options = options_of_crusts(context.options);
+  result.report.options = options; // what is promised follows from these
   const Context plain{options, context.run, context.threads};
   switch (options.method) {
     case Method::powercrust:
@@ -96,9 +101,8 @@ void reconstruct_crust(const PointCloud& cloud, const Context& context, Result& 
     case Method::robust_cocone:
       return reconstruct_tight_cocone(outer_boundary(cloud, plain), plain, result);
     case Method::spectral_cocone:
-      return reconstruct_spectral(outer_boundary(cloud, plain), context, result);
     case Method::eigencrust:
-      return reconstruct_spectral(cloud, context, result);
+      return; // above
   }
 }
 

@@ -2,12 +2,16 @@
 // The only file that knows which code computes regular triangulations.
 #include "crusts/power_diagram.h"
 
+#include <CGAL/Cartesian_converter.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Exact_rational.h>
 #include <CGAL/Regular_triangulation_3.h>
+#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace eigencrust {
@@ -28,6 +32,29 @@ Regular triangulation_of(std::span<const Sphere> balls) {
     points.emplace_back(Regular::Weighted_point({centre.x, centre.y, centre.z}, radius * radius), i);
   }
   return {points.begin(), points.end()};
+}
+
+// Below this share of its longest edge's cube the six-fold volume of a tetrahedron of doubles says little: with poles
+// of nearly cospherical samples such flat ones are many.
+constexpr double flat_share = 1e-6;
+
+/// The point of equal power distance from the four balls of a cell. Cells are not flat by exact arithmetic, which flat
+/// looking ones get here, too.
+Vec3 dual_of(const Regular& regular, Regular::Cell_handle cell) {
+  const auto at = [&](int k) { return cell->vertex(k)->point().point(); };
+  double longest = 0;
+  for (int i = 0; i < 4; ++i)
+    for (int k = i + 1; k < 4; ++k) longest = std::max(longest, CGAL::squared_distance(at(i), at(k)));
+  const double volume = std::abs(CGAL::determinant(at(1) - at(0), at(2) - at(0), at(3) - at(0)));
+  if (volume > flat_share * longest * std::sqrt(longest)) {
+    const auto centre = regular.dual(cell);
+    return {centre.x(), centre.y(), centre.z()};
+  }
+  using Exact = CGAL::Simple_cartesian<CGAL::Exact_rational>;
+  const CGAL::Cartesian_converter<Kernel, Exact> exact;
+  const auto ball = [&](int k) { return exact(cell->vertex(k)->point()); };
+  const auto centre = Exact().construct_weighted_circumcenter_3_object()(ball(0), ball(1), ball(2), ball(3));
+  return {CGAL::to_double(centre.x()), CGAL::to_double(centre.y()), CGAL::to_double(centre.z())};
 }
 
 /// The cells around an edge from ball a to ball b; nothing where one of them is infinite.
@@ -51,8 +78,7 @@ PowerDiagram power_diagram(std::span<const Sphere> balls) {
   diagram.begin.push_back(0);
   for (const auto c : regular.finite_cell_handles()) {
     c->info() = static_cast<std::uint32_t>(diagram.vertices.size());
-    const auto centre = regular.dual(c);
-    diagram.vertices.push_back({centre.x(), centre.y(), centre.z()});
+    diagram.vertices.push_back(dual_of(regular, c));
   }
   if (regular.dimension() < 3) return diagram;
   for (const Regular::Edge& edge : regular.finite_edges()) {

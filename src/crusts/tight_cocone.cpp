@@ -2,6 +2,8 @@
 #include "crusts/tight_cocone.h"
 
 #include <algorithm>
+#include <deque>
+#include <utility>
 
 #include "crusts/umbrella.h"
 #include "geometry/tetrahedron.h"
@@ -50,17 +52,17 @@ class Peeling {
   void orient_at(TetrahedronIndex outside) {
     for (const SampleIndex s : t_.tetrahedra[outside])
       if (is_good(s)) samples_.emplace_back(s, outside);
-    while (!samples_.empty()) {
-      const auto [s, i] = samples_.back();
-      samples_.pop_back();
-      if (!oriented_[s.value]) orient(s, i);
-    }
+    // The first in first, so that a sample is mostly reached from several sides before it is its turn.
+    for (; !samples_.empty(); samples_.pop_front())
+      if (const auto [s, i] = samples_.front(); !oriented_[s.value]) orient(s, i);
   }
 
-  /// The side of the umbrella of s on which a tetrahedron lies is outside, the other inside.
+  /// The side of the umbrella of s on which a tetrahedron lies is outside, the other inside; unless most of what other
+  /// umbrellas said of those tetrahedra is the reverse.
   void orient(SampleIndex s, TetrahedronIndex outside) {
-    const auto [out, in] = umbrellas_.sides_of(s, outside);
+    auto [out, in] = umbrellas_.sides_of(s, outside);
     if (out.tetrahedra.empty()) return;
+    if (votes_for_outside(out) < votes_for_outside(in)) std::swap(out, in);
     oriented_[s.value] = 1;
     for (const TetrahedronIndex i : in.tetrahedra) marked_[i].inside = true;
     for (const TetrahedronIndex i : out.tetrahedra) {
@@ -70,6 +72,12 @@ class Peeling {
     }
     for (const auto& [q, behind] : out.rim)
       if (is_good(q) && !oriented_[q.value]) samples_.emplace_back(q, behind);
+  }
+
+  [[nodiscard]] std::int64_t votes_for_outside(const Umbrellas::Part& part) const {
+    std::int64_t votes = 0;
+    for (const TetrahedronIndex i : part.tetrahedra) votes += int{marked_[i].outside} - int{marked_[i].inside};
+    return votes;
   }
 
   void peel(TetrahedronIndex i) {
@@ -124,7 +132,7 @@ class Peeling {
   std::vector<std::uint8_t> oriented_; ///< good samples whose outer side is known
   IndexedArray<TetrahedronIndex, Mark> marked_;
   Labels peeled_; ///< outside: reached from the cube
-  std::vector<std::pair<SampleIndex, TetrahedronIndex>> samples_;
+  std::deque<std::pair<SampleIndex, TetrahedronIndex>> samples_;
   std::vector<TetrahedronIndex> stack_;
 };
 
