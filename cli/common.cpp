@@ -115,19 +115,28 @@ void add_input_options(OptionTable& app, InputOptions& options) {
   app.add_option("--sensors", options.sensors,
                  "File with a row scan,x,y,z for each scan, or scan,dx,dy,dz under a header; none: ignore all sensors")
       ->type_name(file_to_read);
+  add_frame_options(app, options);
 }
 
 namespace {
+
+Box3 bounds_of(const std::vector<Vec3>& points) {
+  Box3 box;
+  for (const Vec3& p : points)
+    if (is_finite(p)) box.add(p);
+  return box;
+}
 
 /// As they are read or, through a pipe, as they were read.
 PointCloud read_input(const std::string& path, const ReadOptions& options, ReadReport& report) {
   const ReadableFile file(path);
   return file.reading([&] {
-    std::vector<std::string> said;
+    ReadNotes said;
     std::string sha256;
     PointCloud cloud = read_point_cloud(file.path(), options, &said, &sha256);
     report.notes.push_back(std::move(said));
     report.files.push_back({path, std::move(sha256), cloud.points.size(), {}, 0});
+    report.bounds.push_back(bounds_of(cloud.points));
     return cloud;
   });
 }
@@ -141,10 +150,7 @@ LengthChoice parse_thinning(const std::string& text) {
 }
 
 double thinning_edge(const LengthChoice& length, const PointCloud& cloud) {
-  Box3 box;
-  for (const Vec3& p : cloud.points)
-    if (is_finite(p)) box.add(p);
-  const double edge = *length.given(box.diagonal());
+  const double edge = *length.given(bounds_of(cloud.points).diagonal());
   if (!(edge > 0)) fail_usage("the points are all in one place: a share of their box is no length", "leave out --thin");
   return edge;
 }
@@ -179,15 +185,20 @@ PointCloud read_inputs(const InputOptions& options, ReadReport& report, const st
   const std::optional<LengthChoice> thin =
       options.thin.empty() ? std::nullopt : std::optional(parse_thinning(options.thin));
   // What is replaced need not be looked for.
-  const ReadOptions read_options{split(options.columns), viewpoint_of(options.pcd_viewpoint),
-                                 sensors.empty() && options.sensors.empty()};
+  ReadOptions read_options{split(options.columns), viewpoint_of(options.pcd_viewpoint),
+                           sensors.empty() && options.sensors.empty()};
+  read_options.shift = shift_of_inputs(options);
+  for (std::size_t i = 0; i < options.paths.size(); ++i) scale_of_input(options, i); // refused before anything is read
   PointCloud cloud;
+  std::vector<Extent> extents;
   for (std::size_t i = 0; i < options.paths.size(); ++i) {
+    read_options.scale = scale_of_input(options, i);
     PointCloud next = read_input(options.paths[i], read_options, report);
     if (!sensors.empty()) {
       next.sensors.assign(1, sensors[i]);
       next.sensor_of.assign(next.points.size(), 0);
     }
+    if (options.paths.size() > 1) extents.push_back(extent_of(next.points));
     if (i == 0)
       cloud = std::move(next);
     else
@@ -195,6 +206,7 @@ PointCloud read_inputs(const InputOptions& options, ReadReport& report, const st
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(options.paths.size()));
     if (interrupted()) throw Error(ErrorKind::cancelled, "reading", "cancelled", "start again to finish");
   }
+  report.together = compare_extents(options.paths, extents);
   if (!options.scan_index.empty()) {
     if (options.paths.size() > 1)
       fail_usage("--scan-index goes with a single input", "leave it out: several inputs are several scans");
@@ -216,6 +228,16 @@ std::string rounded(double value) {
   std::array<char, 32> buffer{};
   std::snprintf(buffer.data(), buffer.size(), "%.4g", value);
   return buffer.data();
+}
+
+std::string show_point(const Vec3& point, double extent) {
+  const double largest = std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+  int digits = 4;
+  if (extent > 0 && largest > extent) digits += static_cast<int>(std::ceil(std::log10(largest / extent)));
+  std::array<char, 120> text{};
+  std::snprintf(text.data(), text.size(), "(%.*g, %.*g, %.*g)", std::min(digits, 17), point.x, std::min(digits, 17),
+                point.y, std::min(digits, 17), point.z);
+  return text.data();
 }
 
 std::string describe(const MeshSummary& mesh) {

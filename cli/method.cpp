@@ -242,6 +242,9 @@ MethodRun::MethodRun(const Request& request, std::vector<std::string> command, O
   FileStage stage(*observer_, "reading");
   cloud = read_inputs(request.input, read_, [&](double fraction) { stage.progress(fraction); });
   stage.end();
+  for (std::size_t i = 0; i < read_.files.size(); ++i)
+    for (const std::string& text : read_.notes[i].warnings) warn_at_once(read_.files[i].path + ": " + text);
+  for (const std::string& text : read_.together) warn_at_once(text);
 }
 
 void MethodRun::warn_at_once(const std::string& text) {
@@ -277,10 +280,13 @@ void MethodRun::finish(const std::function<WriteResult(OutputFiles&, const std::
   Report& report = result.report;
   FileStage stage(*observer_, "writing");
   OutputFiles files;
+  std::vector<std::string> comments = frame_comments(request_.input);
+  comments.insert(comments.begin(), std::string("made by eigencrust ") + version());
   const WriteResult written = write(files, real_output(request_.output),
                                     {.spacing = report.spacing,
-                                     .comments = {std::string("made by eigencrust ") + version()},
-                                     .format = request_.format});
+                                     .comments = std::move(comments),
+                                     .format = request_.format,
+                                     .shift = shift_of_inputs(request_.input)});
   report.warnings.insert(report.warnings.end(), written.warnings.begin(), written.warnings.end());
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   report.peak_memory_bytes = peak_memory_bytes();
