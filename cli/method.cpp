@@ -52,6 +52,12 @@ void add_method_options(OptionTable& app, Request& r) {
                  "robust: the measured best; paper: Kolluri, Shewchuk, O'Brien 2004 to the letter")
       ->capture_default_str()
       ->usually_of({"robust", "paper"});
+  app.add_option("--method", r.method,
+                 "Which surface: eigencrust, or to compare powercrust, spectral-powercrust, tight-cocone, "
+                 "robust-cocone, spectral-cocone" +
+                     defaults(to_string(robust.method), to_string(paper.method)))
+      ->usually_of(
+          {"eigencrust", "powercrust", "spectral-powercrust", "tight-cocone", "robust-cocone", "spectral-cocone"});
   app.add_option("--noise", r.noise,
                  "Standard deviation of the noise: auto (measured at the samples), off, a length, N%" +
                      defaults(to_string(robust.noise), to_string(paper.noise)))
@@ -133,6 +139,7 @@ void add_run_options(OptionTable& app, Request& r) {
 
 Options effective_options(const Request& r) {
   Options o = Options::of(parse_preset(r.preset));
+  if (!r.method.empty()) o.method = parse_method(r.method);
   if (!r.grid_spacing.empty()) o.grid_spacing = parse_length_choice("grid spacing", r.grid_spacing);
   if (!r.noise.empty()) o.noise = parse_length_choice("noise", r.noise);
   if (!r.questionable.empty()) o.questionable = parse_questionable(r.questionable);

@@ -17,7 +17,7 @@ struct Request {
   InputOptions input;
   std::string output, format, report, progress = "auto", dump_stages;
   bool each = false;
-  std::string preset = to_string(Preset::robust);
+  std::string preset = to_string(Preset::robust), method;
   std::string weights, second_stage, eigensolver, questionable, grid_spacing, noise, components, smoothing, facade;
   bool manifold = Options{}.manifold; // on in both presets
   bool trim = Options{}.trim;

@@ -16,6 +16,15 @@ enum class Preset : std::uint8_t {
   robust, ///< the measured best
   paper   ///< Kolluri, Shewchuk and O'Brien (2004) to the letter
 };
+/// Which surface is made of the tetrahedra or poles. The others are what the paper is compared with (docs/crusts.md).
+enum class Method : std::uint8_t {
+  eigencrust,
+  powercrust,          ///< Amenta, Choi, Kolluri 2001
+  spectral_powercrust, ///< the same cells, labelled by the first partition (§3.4)
+  tight_cocone,        ///< Dey, Goswami 2003
+  robust_cocone,       ///< Dey, Goswami 2004
+  spectral_cocone      ///< the samples that Robust Cocone keeps, then eigencrust
+};
 /// What the pole pairs of the pole graph weigh (§3.1).
 enum class Weights : std::uint8_t {
   evidence, ///< those of isolated samples count only as far as their Voronoi cells are long
@@ -92,6 +101,7 @@ struct SolverOptions {
 /// What one call of reconstruct() may be told. The defaults are those of the preset `robust`.
 struct Options {
   Preset preset = Preset::robust;
+  Method method = Method::eigencrust;
   SolverOptions solver;
   /// docs/decisions/0013.
   Weights weights = Weights::evidence;
@@ -145,6 +155,7 @@ struct Options {
 
 // Names as the command line and the report write them.
 std::string to_string(Preset value);
+std::string to_string(Method value);
 std::string to_string(Weights value);
 std::string to_string(Eigensolver value);
 std::string to_string(SecondStage value);
@@ -159,6 +170,7 @@ std::string to_string(const KeepComponents& value);
 
 // The reverse. \throws Error{usage} naming the accepted values.
 Preset parse_preset(const std::string& text);
+Method parse_method(const std::string& text);
 Weights parse_weights(const std::string& text);
 Eigensolver parse_eigensolver(const std::string& text);
 SecondStage parse_second_stage(const std::string& text);

@@ -52,6 +52,7 @@ Json json_of(const Options& o) {
           {"stable_share", o.solver.stable_share},
           {"tolerance", o.solver.tolerance},
           {"max_steps", o.solver.max_steps},
+          {"method", to_string(o.method)},
           {"second_stage", to_string(o.second_stage)},
           {"grid_spacing", to_string(o.grid_spacing)},
           {"noise", to_string(o.noise)},
