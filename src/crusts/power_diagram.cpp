@@ -2,6 +2,8 @@
 // The only file that knows which code computes regular triangulations.
 #include "crusts/power_diagram.h"
 
+#include "tetrahedra/insertion_rounds.h"
+
 #include <CGAL/Cartesian_converter.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Exact_rational.h>
@@ -11,6 +13,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -24,14 +27,19 @@ using CellBase =
     CGAL::Triangulation_cell_base_with_info_3<std::uint32_t, Kernel, CGAL::Regular_triangulation_cell_base_3<Kernel>>;
 using Regular = CGAL::Regular_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 
+/// Balls that no cell is left for, hidden by others, are no vertices.
 Regular triangulation_of(std::span<const Sphere> balls) {
-  std::vector<std::pair<Regular::Weighted_point, std::uint32_t>> points;
-  points.reserve(balls.size());
-  for (std::uint32_t i = 0; i < balls.size(); ++i) {
+  Regular regular;
+  Regular::Cell_handle hint;
+  for (const std::uint32_t i : in_rounds(static_cast<std::uint32_t>(balls.size()))) {
     const auto& [centre, radius] = balls[i];
-    points.emplace_back(Regular::Weighted_point({centre.x, centre.y, centre.z}, radius * radius), i);
+    const Regular::Vertex_handle v =
+        regular.insert(Regular::Weighted_point({centre.x, centre.y, centre.z}, radius * radius), hint);
+    if (v == Regular::Vertex_handle()) continue;
+    v->info() = i;
+    hint = v->cell();
   }
-  return {points.begin(), points.end()};
+  return regular;
 }
 
 // Below this share of its longest edge's cube the six-fold volume of a tetrahedron of doubles says little: with poles
@@ -81,9 +89,18 @@ PowerDiagram power_diagram(std::span<const Sphere> balls) {
     diagram.vertices.push_back(dual_of(regular, c));
   }
   if (regular.dimension() < 3) return diagram;
+  // The engine names an edge by whichever of its cells lies first in memory: so each gets a form of its own here.
+  std::vector<std::pair<std::array<std::uint32_t, 2>, Regular::Edge>> edges;
   for (const Regular::Edge& edge : regular.finite_edges()) {
-    diagram.facets.push_back({edge.first->vertex(edge.second)->info(), edge.first->vertex(edge.third)->info()});
-    const auto polygon = polygon_around(regular, edge);
+    const auto& [cell, i, k] = edge;
+    const std::uint32_t a = cell->vertex(i)->info(), b = cell->vertex(k)->info();
+    edges.push_back(a < b ? std::pair{std::array{a, b}, edge} : std::pair{std::array{b, a}, Regular::Edge{cell, k, i}});
+  }
+  std::sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [balls_of_edge, edge] : edges) {
+    diagram.facets.push_back(balls_of_edge);
+    auto polygon = polygon_around(regular, edge);
+    std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
     diagram.corners.insert(diagram.corners.end(), polygon.begin(), polygon.end());
     diagram.begin.push_back(diagram.corners.size());
   }
