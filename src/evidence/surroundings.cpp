@@ -5,10 +5,12 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <eigencrust/error.h>
 
+#include "samples/scales.h"
 #include "tetrahedra/segment_walk.h"
 
 namespace eigencrust {
@@ -23,6 +25,8 @@ constexpr std::uint32_t looked_at = 2048;
 constexpr double most_stacked = 0.5, perhaps_stacked = 0.65;
 // Roofs without their walls have four times as much space behind them as in front, ground with objects at most as much.
 constexpr double cap_of_body = 2;
+// Lenses and plates thinner than their samples are apart are not stacked; but the hull goes along both of their sides.
+constexpr double most_on_hull = 0.5;
 
 /// Samples spread evenly over all, at most about `looked_at`.
 std::vector<SampleIndex> some_samples(const Tetrahedralization& t) {
@@ -134,21 +138,49 @@ double cap_of(const Scene& scene, int axis, const Threads& threads) {
     before += space[k][1];
     shallow += unevenness * std::pow(static_cast<double>(scene.measures.model.spacing[some[k].value]), 3);
   }
-  return behind / std::max(before, shallow);
+  // Flat as far as can be told: a plane has no side behind it.
+  return behind + before < shallow ? std::numeric_limits<double>::infinity() : behind / std::max(before, shallow);
+}
+
+/// meet(its samples, the corner of the cube beyond)
+template <class Meet>
+void for_each_hull_triangle(const Tetrahedralization& t, Meet&& meet) {
+  for (TetrahedronIndex i{0}; i.value < t.tetrahedra.size(); ++i.value) {
+    std::array<SampleIndex, 4> corner = t.tetrahedra[i];
+    std::stable_partition(corner.begin(), corner.end(), [&](SampleIndex s) { return !t.is_corner(s); });
+    if (!t.is_corner(corner[2]) && t.is_corner(corner[3])) meet({corner[0], corner[1], corner[2]}, corner[3]);
+  }
+}
+
+/// The share of the hull's shadow along the axis that triangles among neighbouring samples cast, on the side where that
+/// is less: both sides of a closed body that is convex or flat are on its hull, of ground at most one.
+double share_on_hull(const Scene& scene, int axis) {
+  const Tetrahedralization& t = scene.tetrahedralization;
+  const Vec3 up = direction_of(static_cast<Axis>(2 * axis));
+  std::array<double, 2> short_ones{}, all{};
+  for_each_hull_triangle(t, [&](const std::array<SampleIndex, 3>& corner, SampleIndex beyond) {
+    double longest = 0, spacing = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      longest = std::max(longest, norm(t.positions[corner[(k + 1) % 3]] - t.positions[corner[k]]));
+      spacing += static_cast<double>(scene.measures.model.spacing[corner[k].value]) / 3;
+    }
+    const Vec3& p = t.positions[corner[0]];
+    const Vec3 n = cross(t.positions[corner[1]] - p, t.positions[corner[2]] - p);
+    const bool outward = dot(n, t.positions[beyond] - p) > 0, upward = (dot(n, up) > 0) == outward;
+    all[upward] += std::fabs(dot(n, up));
+    if (longest <= longest_edge * spacing) short_ones[upward] += std::fabs(dot(n, up));
+  });
+  return std::min(short_ones[0] / all[0], short_ones[1] / all[1]);
 }
 
 /// The part of the hull's area that each sample on it stands for; 0 for all others.
 std::vector<double> hull_area(const Tetrahedralization& t) {
   std::vector<double> area(t.sample_count, 0);
-  for (TetrahedronIndex i{0}; i.value < t.tetrahedra.size(); ++i.value) {
-    std::array<SampleIndex, 4> corner = t.tetrahedra[i];
-    const auto end = std::remove_if(corner.begin(), corner.end(), [&](SampleIndex s) { return t.is_corner(s); });
-    if (end - corner.begin() != 3) continue;
-    const auto& [a, b, c, rest] = corner;
-    const Vec3& p = t.positions[a];
-    const double third = norm(cross(t.positions[b] - p, t.positions[c] - p)) / 6;
-    for (const SampleIndex s : {a, b, c}) area[s.value] += third;
-  }
+  for_each_hull_triangle(t, [&](const std::array<SampleIndex, 3>& corner, SampleIndex) {
+    const Vec3& p = t.positions[corner[0]];
+    const double third = norm(cross(t.positions[corner[1]] - p, t.positions[corner[2]] - p)) / 6;
+    for (const SampleIndex s : corner) area[s.value] += third;
+  });
   return area;
 }
 
@@ -159,7 +191,7 @@ Surroundings reading_of_samples(const Scene& scene, const Threads& threads) {
   // What stands on z is taken to be ground first: of two sides of a façade nothing tells the one that was seen.
   constexpr int z = 2;
   const AxisReading ground = read_axis(scene, z, threads);
-  if (ground.stacked <= most_stacked && ground.cap <= cap_of_body) {
+  if (ground.stacked <= most_stacked && ground.cap <= cap_of_body && share_on_hull(scene, z) < most_on_hull) {
     result.kind = SceneKind::facade;
     return result;
   }

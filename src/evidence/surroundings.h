@@ -31,7 +31,8 @@ struct AxisReading {
   /// farther than twice as far and than spacing and noise explain.
   double stacked = 1;
   /// Space between the samples and their hull behind them, over that in front, seen from the positive end. Large where
-  /// the samples are the cap of a body, small where the ground has something on it. -1: not measured.
+  /// the samples are the cap of a body, infinite where they are a plane, small where the ground has something on it.
+  /// -1: not measured.
   double cap = -1;
 };
 /// Some thousand samples are looked at. `cap` is measured only where `stacked` is small.

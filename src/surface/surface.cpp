@@ -17,9 +17,11 @@ namespace {
 /// \param found pieces before some of them were left out
 void require_surface(const Surface& surface, bool found) {
   if (surface.mesh.triangles.empty())
-    throw Error(ErrorKind::no_surface, "surface",
-                found ? "nothing but the wall of a cavity was found" : "every tetrahedron was labelled outside",
-                "check that the points surround a volume, give less --noise or off, or name an inside point");
+    throw Error(
+        ErrorKind::no_surface, "surface",
+        found ? "nothing but the wall of a cavity was found" : "every tetrahedron was labelled outside",
+        "check that the points surround a volume, give less --noise or off, or name an inside point; of one side, "
+        "name which was seen, as --facade +z");
 }
 
 /// A scrap is no success: of so many samples some must lie on the surface, or as near as noise and spacing explain.
