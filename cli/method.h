@@ -4,27 +4,20 @@
 #pragma once
 
 #include <chrono>
-#include <optional>
+#include <functional>
+#include <map>
 
 #include "command.h"
 
 namespace eigencrust::cli {
 
-/// What the command line said; empty strings leave the preset's choice.
+/// What the command line said.
 struct Request {
   InputOptions input;
   std::string output, report, progress = "auto", dump_stages;
-  std::string preset = to_string(Preset::robust);
-  std::string weights, second_stage, eigensolver, questionable, grid_spacing, noise, components, smoothing, facade;
-  bool manifold = Options{}.manifold; // on in both presets
-  bool trim = Options{}.trim;
-  std::optional<std::uint32_t> smooth;
-  std::optional<double> tolerance;
-  std::string crossing_depth;
-  std::optional<std::uint32_t> max_steps;
-  std::vector<std::string> outside_points, inside_points, outside_files, inside_files;
-  unsigned threads = Options{}.threads;
-  std::string max_memory;
+  /// Options of the table by name, those that were given; others keep the preset's choice.
+  std::map<std::string, std::vector<std::string>, std::less<>> method;
+  std::vector<std::string> outside_files, inside_files;
   bool quiet = false;
 };
 
