@@ -74,7 +74,9 @@ def _dress() -> None:
     PointCloud.to_pyvista = _convert.cloud_to_pyvista
     PointCloud.__repr__ = _display.cloud_repr
     PointCloud._repr_html_ = _display.cloud_html
-    Result.report = property(lambda result: _json.loads(result._report_json), doc="What was done and found, as a dict: docs/report.md.")
+    Result.report = property(
+        lambda result: _json.loads(result._report_json), doc="What was done and found, as a dict: docs/report.md."
+    )
     Result.vertices = property(lambda result: result.mesh.vertices, doc="(V,3) float64, of the mesh")
     Result.triangles = property(lambda result: result.mesh.triangles, doc="(T,3) uint32, of the mesh")
     Result.to_trimesh = lambda result: result.mesh.to_trimesh()

@@ -248,7 +248,9 @@ class Session:
         return self._session.cloud
 
 
-def check(mesh: Any, *, self_intersections: bool = True, merge_equal_vertices: bool = True, threads: int = 0) -> _core.MeshSummary:
+def check(
+    mesh: Any, *, self_intersections: bool = True, merge_equal_vertices: bool = True, threads: int = 0
+) -> _core.MeshSummary:
     """Is a mesh closed, manifold and oriented? Its genus, volume, area and self-intersections.
 
     mesh is a Mesh, a file, (vertices, triangles), or a mesh of trimesh or Open3D.
@@ -267,7 +269,8 @@ def compare(
 
 
 def info(points: Any, *, threads: int = 0) -> Dict[str, Any]:
-    """What is in a cloud, an array or a file: counts, bounds, spacing, sensors, attributes; forecast of memory and time."""
+    """What is in a cloud, an array or a file: counts, bounds, spacing, sensors, attributes; forecast of memory and
+    time."""
     notes: List[str] = []
     if isinstance(points, (str, os.PathLike)):
         points, notes = _core.read_point_cloud(points, [], "auto", True)
@@ -309,7 +312,14 @@ def _written(path: Path, warnings: Iterable[str]) -> None:
         logger.warning("%s: %s", path, text)
 
 
-def write_mesh(path: Path, mesh: Any, *, coordinates: str = "auto", spacing: Optional[float] = None, comments: Sequence[str] = ()) -> None:
+def write_mesh(
+    path: Path,
+    mesh: Any,
+    *,
+    coordinates: str = "auto",
+    spacing: Optional[float] = None,
+    comments: Sequence[str] = (),
+) -> None:
     """Writes a mesh, whole or not at all: ply obj off stl.
 
     coordinates: auto, float32 or float64; auto takes float32 where that moves no vertex by more than a thousandth of

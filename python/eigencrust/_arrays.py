@@ -149,11 +149,14 @@ def as_columns(
         if isinstance(column, ListColumn):
             offsets = as_integers(column.offsets, what).astype(np.uint64)
             column = column.values
-            if len(offsets) == 0 or offsets[0] != 0 or offsets[-1] != len(column) or (np.diff(offsets.view(np.int64)) < 0).any():
+            rises = len(offsets) > 0 and bool((np.diff(offsets.view(np.int64)) >= 0).all())
+            if not rises or offsets[0] != 0 or offsets[-1] != len(column):
                 raise InputError(what, "its offsets do not rise from 0 to the number of values", "see ListColumn")
         elif as_array(column, what).ndim == 2:
             raise InputError(
-                what, f"its shape is {np.shape(column)}", "give each of its columns a name, for example red, green, blue"
+                what,
+                f"its shape is {np.shape(column)}",
+                "give each of its columns a name, for example red, green, blue",
             )
         values = _as_column(column, what)
         found = len(values) if offsets is None else len(offsets) - 1

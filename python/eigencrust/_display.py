@@ -58,10 +58,8 @@ def cloud_html(cloud: _core.PointCloud) -> str:
 def result_html(result: _core.Result) -> str:
     report = result.report
     warnings = [f"warning: {text}" for text in result.warnings]
-    return _figure(
-        result.mesh,
-        [result_repr(result).strip("<>"), f"{report['input']['points']:,} points in {report['seconds']:.2f} s"] + warnings,
-    )
+    cost = f"{report['input']['points']:,} points in {report['seconds']:.2f} s"
+    return _figure(result.mesh, [result_repr(result).strip("<>"), cost, *warnings])
 
 
 def summary_repr(summary: _core.MeshSummary) -> str:

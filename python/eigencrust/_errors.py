@@ -71,7 +71,10 @@ class Cancelled(Error):
     status = 130
 
 
-_by_status = {c.status: c for c in (UsageError, InputError, MemoryLimitError, NoSurfaceError, GuaranteeError, Cancelled)}
+_by_status = {
+    kind.status: kind
+    for kind in (UsageError, InputError, MemoryLimitError, NoSurfaceError, GuaranteeError, Cancelled)
+}
 
 
 def make_error(status: int, stage: str, cause: str, remedy: str) -> Error:

@@ -77,11 +77,19 @@ def _described(option: Option) -> str:
     default = option.default
     if option.paper_default != default and option.name != "preset":
         default += f"; paper: {option.paper_default}"
-    form = {"points": "(3,) or (M,3) array", "flag": "bool", "count": "int", "number": "float", "bytes": "int or str"}
+    form = {
+        "choice": "str",
+        "length": "float or str",
+        "points": "(3,) or (M,3) array",
+        "flag": "bool",
+        "count": "int",
+        "number": "float",
+        "bytes": "int or str",
+    }
     meaning = option.help
     if option.kind == "points":
         meaning = meaning.replace("x,y,z of a point", "Points").replace("; repeatable", "")
-    return f"{option.name}: {form.get(option.kind, 'str' if option.kind == 'choice' else 'float or str')}\n    {meaning} [{default}]"
+    return f"{option.name}: {form[option.kind]}\n    {meaning} [{default}]"
 
 
 def documents_options(function: _Function) -> _Function:

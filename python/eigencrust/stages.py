@@ -87,4 +87,5 @@ def partition_tetrahedra(
     return _stages.partition_tetrahedra(graph, method, make_options(solver), threads, progress, cancel)
 
 
-__all__ = sorted(name for name in globals() if not name.startswith("_") and name not in ("annotations", "Any", "Optional", "make_options"))
+_not_ours = ("annotations", "Any", "Optional", "make_options")
+__all__ = sorted(name for name in globals() if not name.startswith("_") and name not in _not_ours)

@@ -153,6 +153,9 @@ void bind_knowledge(py::module_& m) {
       py::arg("tetrahedralization"), py::arg("stars"), py::arg("outside_points") = py::none(),
       py::arg("inside_points") = py::none(), py::arg("facade") = py::none(), py::arg("threads") = 0,
       "§3.1: what is known beforehand, uint8 per tetrahedron: 0 nothing, 1 inside, 2 outside.");
+}
+
+void bind_lines_of_sight(py::module_& m) {
   m.def(
       "sight_lines",
       [](const py::object& points, const Samples& samples, const Tets& t, const py::object& depth,
@@ -198,7 +201,7 @@ void bind_knowledge(py::module_& m) {
       "§3.1: labels of the tetrahedra that lines of sight decide, added to what is known.");
 }
 
-void bind_first_stage(py::module_& m) {
+void bind_pole_graph(py::module_& m) {
   m.def(
       "questionable_tetrahedra",
       [](const Tets& t, const py::object& grid_spacing, unsigned threads) {
@@ -228,6 +231,9 @@ void bind_first_stage(py::module_& m) {
       py::arg("tetrahedralization"), py::arg("stars"), py::arg("poles"), py::arg("known"),
       py::arg("left_out") = py::none(), py::arg("isolated") = py::none(), py::arg("contract") = true,
       py::arg("threads") = 0, "§3.1: the signed graph on the poles with its supernodes.");
+}
+
+void bind_partition(py::module_& m) {
   m.def(
       "partition_poles",
       [](const PoleGraph& graph, const Options& options, bool reduce, unsigned threads, const py::object& progress,
@@ -373,7 +379,9 @@ void bind_surface(py::module_& m) {
 void bind_stages(py::module_& stages) {
   bind_beginning(stages);
   bind_knowledge(stages);
-  bind_first_stage(stages);
+  bind_lines_of_sight(stages);
+  bind_pole_graph(stages);
+  bind_partition(stages);
   bind_second_stage(stages);
   bind_surface(stages);
 }
