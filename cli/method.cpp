@@ -1,72 +1,93 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "method.h"
 
+#include <algorithm>
 #include <iostream>
 
 #include <eigencrust/memory_forecast.h>
 #include <eigencrust/option_table.h>
 
+#include "messages.h"
+#include "standard_streams.h"
+
 namespace eigencrust::cli {
 namespace {
 
-/// What --help shows in place of the value.
-const char* value_name(OptionEntry::Kind kind) {
-  switch (kind) {
-    case OptionEntry::Kind::count:
-      return "UINT";
-    case OptionEntry::Kind::number:
-      return "FLOAT";
-    default:
-      return "TEXT";
-  }
+/// " [auto; paper: off]". What is off unless it is named, or empty, goes without saying, and so does the tolerance,
+/// which means something else once it is given.
+std::string shown_default(const OptionEntry& entry) {
+  const std::string text = describe_default(entry);
+  const bool is_shown = entry.kind == OptionEntry::Kind::flag
+                            ? text == "on"
+                            : entry.kind != OptionEntry::Kind::points && entry.kind != OptionEntry::Kind::number;
+  return is_shown ? " [" + text + "]" : std::string();
 }
 
-void add_group(CLI::App& app, Request& r, OptionEntry::Group group) {
+/// The options of the library's table.
+void add_group(OptionTable& app, Request& r, OptionEntry::Group group) {
+  app.begin_chapter(std::string(chapter(group)));
   for (const OptionEntry& entry : option_table()) {
     if (entry.group != group) continue;
-    const std::string name(entry.name), option = "--" + name,
-                                        help = std::string(entry.help) + " [" + describe_default(entry) + "]";
+    const std::string name = "--" + std::string(entry.name), help = std::string(entry.help) + shown_default(entry);
+    MethodValue& value = r.method[std::string(entry.name)];
     if (entry.kind == OptionEntry::Kind::flag) {
-      const bool can_be_negated = entry.get(Options{}) == "on";
-      app.add_flag_function(
-          can_be_negated ? option + ",!--no-" + name : option,
-          [&r, name](std::int64_t count) { r.method[name] = {count > 0 ? "on" : "off"}; }, help);
-    } else if (entry.kind == OptionEntry::Kind::points) {
-      app.add_option(option, r.method[name], help)->allow_extra_args(false);
-    } else {
-      app.add_option_function<std::string>(
-             option, [&r, name](const std::string& value) { r.method[name] = {value}; }, help)
-          ->type_name(value_name(entry.kind));
+      value.flag = describe_default(entry) == "on";
+      app.add_flag(value.flag ? name + ",!--no-" + std::string(entry.name) : name, value.flag, help);
+      continue;
     }
+    Option* option = entry.kind == OptionEntry::Kind::points  ? app.add_option(name, value.points, help)
+                     : entry.kind == OptionEntry::Kind::count ? app.add_option(name, value.count, help)
+                                                              : app.add_option(name, value.text, help);
+    if (const std::vector<std::string> words = choices(entry); !words.empty())
+      option->usually_of(words);
+    else
+      option->type_name(std::string(entry.value));
   }
 }
 
 } // namespace
 
-void add_method_options(CLI::App& app, Request& r) {
-  add_group(app, r, OptionEntry::Group::method);
-  app.add_option("--outside-points", r.outside_files, "File of points known to be outside; repeatable");
-  app.add_option("--inside-points", r.inside_files, "File of points known to be inside; repeatable");
+void add_output_options(OptionTable& app, Request& r, const std::string& what) {
+  app.begin_chapter("Results");
+  app.add_option("-o,--output", r.output, what)->type_name(file_to_write);
+  app.add_option("--format", r.format, "Format of the result, instead of that of its name's ending; needed with -o -")
+      ->type_name("NAME");
+  app.add_option("--report", r.report, "Write what was done and found as JSON")->type_name(file_to_write);
+  app.add_flag("--each", r.each,
+               "Each input is a job of its own; {} in -o and --report stands for its name: -o meshes/{}.ply");
 }
 
-void add_smoothing_options(CLI::App& app, Request& r) { add_group(app, r, OptionEntry::Group::smoothing); }
+void add_method_options(OptionTable& app, Request& r) {
+  add_group(app, r, OptionEntry::Group::known);
+  app.add_option("--outside-points", r.outside_files, "File of points known to be outside; repeatable")
+      ->type_name(file_to_read);
+  app.add_option("--inside-points", r.inside_files, "File of points known to be inside; repeatable")
+      ->type_name(file_to_read);
+  add_group(app, r, OptionEntry::Group::method);
+}
 
-void add_run_options(CLI::App& app, Request& r) {
+void add_smoothing_options(OptionTable& app, Request& r) { add_group(app, r, OptionEntry::Group::smoothing); }
+
+void add_run_options(OptionTable& app, Request& r) {
   add_group(app, r, OptionEntry::Group::run);
-  app.add_option("--report", r.report, "Write what was done and found as JSON");
   app.add_option("--progress", r.progress, "auto, bar, jsonl or off; on stderr")
-      ->check(CLI::IsMember({"auto", "bar", "jsonl", "off"}))
+      ->one_of({"auto", "bar", "jsonl", "off"})
       ->capture_default_str();
-  app.add_option("--dump-stages", r.dump_stages, "Folder for the stages' products as PLY files");
+  app.add_option("--dump-stages", r.dump_stages, "Folder for the stages' products as PLY files")
+      ->type_name(folder_to_write);
   app.add_flag("-q,--quiet", r.quiet, "Print nothing but errors");
 }
 
 Options effective_options(const Request& r) {
   Options o;
-  for (const OptionEntry& entry : option_table()) { // the preset first
-    const auto given = r.method.find(entry.name);
-    if (given == r.method.end()) continue;
-    for (const std::string& value : given->second) entry.set(o, value);
+  for (const OptionEntry& entry : option_table()) { // the preset comes first
+    const auto found = r.method.find(entry.name);
+    if (found == r.method.end()) continue;
+    const MethodValue& value = found->second;
+    if (entry.kind == OptionEntry::Kind::flag) entry.set(o, value.flag ? "on" : "off");
+    if (value.text) entry.set(o, *value.text);
+    if (value.count) entry.set(o, std::to_string(*value.count));
+    for (const std::string& point : value.points) entry.set(o, point);
   }
   for (const auto& [files, points] :
        {std::pair{&r.outside_files, &o.outside_points}, std::pair{&r.inside_files, &o.inside_points}})
@@ -78,44 +99,79 @@ Options effective_options(const Request& r) {
   return o;
 }
 
+namespace {
+
+/// - is written as /dev/stdout is.
+std::string real_output(const std::string& path) { return is_standard_output(path) ? "/dev/stdout" : path; }
+
+void check_format(const Request& r, OutputKind kind) {
+  const bool mesh = kind == OutputKind::mesh;
+  if (mesh ? can_write_mesh(r.output, r.format) : can_write_point_cloud(r.output, r.format)) return;
+  const std::string known = mesh ? "ply, obj, off or stl" : "ply, pcd, las, xyz, txt, asc, csv or obj";
+  if (!r.format.empty())
+    throw Error(ErrorKind::usage, "--format",
+                std::string("there is no format of ") + (mesh ? "meshes" : "clouds") + " named " + r.format,
+                "use " + known);
+  if (is_standard_output(r.output))
+    throw Error(ErrorKind::usage, r.output, "standard output has no ending that tells the format",
+                "add --format ply, or another of " + known);
+  throw Error(
+      ErrorKind::usage, r.output,
+      mesh ? "no mesh format is known by this name" : "no format of clouds that can be written is known by this name",
+      "end it in ." + known + ", or add --format");
+}
+
+/// \throws Error{usage} where a folder is missing or in the way, Error{input} for what cannot be written
+void check_place(const std::string& path) {
+  namespace fs = std::filesystem;
+  if (path.empty() || is_standard_output(path)) return;
+  std::error_code ignored;
+  const fs::path folder = fs::path(path).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, ignored))
+    throw Error(ErrorKind::usage, path, "the folder " + folder.string() + " does not exist",
+                "create it first: mkdir -p " + folder.string());
+  if (fs::is_directory(path, ignored)) throw Error(ErrorKind::usage, path, "this is a folder", "name a file in it");
+}
+
+} // namespace
+
+namespace {
+
+std::vector<std::string> inputs_of(const Request& r) {
+  std::vector<std::string> paths = r.input.paths;
+  for (const auto& more : {std::vector{r.input.scan_index, r.input.sensors}, r.outside_files, r.inside_files})
+    paths.insert(paths.end(), more.begin(), more.end());
+  return paths;
+}
+
+std::vector<std::string> outputs_of(const Request& r) { return {r.output, r.report}; }
+
+} // namespace
+
 void check_outputs(const Request& r, OutputKind kind) {
   namespace fs = std::filesystem;
-  if (kind == OutputKind::mesh && !can_write_mesh(r.output))
-    throw Error(ErrorKind::usage, r.output, "no mesh format is known by this name",
-                "end it in .ply, .obj, .off or .stl");
-  if (kind == OutputKind::cloud && !can_write_point_cloud(r.output))
-    throw Error(ErrorKind::usage, r.output, "no format of clouds that can be written is known by this name",
-                "end it in .ply, .xyz, .txt, .asc or .csv");
-  for (const std::string& path : {r.output, r.report}) {
-    if (path.empty()) continue;
-    const fs::path folder = fs::path(path).parent_path();
-    if (!folder.empty() && !fs::is_directory(folder))
-      throw Error(ErrorKind::usage, path, "the folder " + folder.string() + " does not exist", "create it first");
-    if (fs::is_directory(path)) throw Error(ErrorKind::usage, path, "this is a folder", "name a file");
-  }
-  std::error_code ignored;
-  std::vector<std::string> inputs = r.input.paths;
-  inputs.push_back(r.input.scan_index);
-  inputs.push_back(r.input.sensors);
+  for (const std::string& path : {r.output, r.report}) check_place(path);
+  check_format(r, kind);
+  check_files({inputs_of(r), outputs_of(r), {}});
   for (const std::string& path : {r.output, r.report})
-    for (const std::string& input : inputs)
-      if (fs::equivalent(input, path, ignored))
-        throw Error(ErrorKind::usage, path, "the output would overwrite an input", "choose another name");
-  const auto place = [&](const std::string& path) {
-    return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
-  };
-  if (!r.report.empty() && place(r.output) == place(r.report))
-    throw Error(ErrorKind::usage, r.report, "output and report would be the same file", "choose another name");
-  if (!r.dump_stages.empty() && !fs::is_directory(r.dump_stages) && !fs::create_directories(r.dump_stages))
+    if (!path.empty() && !is_standard_output(path)) require_writable(path);
+  std::error_code ignored; // whatever it is, the folder cannot be used
+  if (r.dump_stages.empty() || fs::is_directory(r.dump_stages, ignored)) return;
+  if (!fs::create_directories(r.dump_stages, ignored))
     throw Error(ErrorKind::usage, r.dump_stages, "the folder cannot be created", "choose another one");
 }
 
-MethodRun::MethodRun(const Request& request, const Arguments& arguments, OutputKind kind)
-    : request_(request), arguments_(arguments) {
+MethodRun::MethodRun(const Request& request, std::vector<std::string> command, OutputKind kind)
+    : request_(request), command_(std::move(command)) {
+  forget_files();
   check_outputs(request, kind);
-  catch_interrupts();
   observer_ = make_observer(request.progress, request.dump_stages, request.quiet);
-  cloud = read_inputs(request.input, files_);
+  FileStage stage(*observer_, "reading");
+  cloud = read_inputs(request.input, read_, [&](double fraction) { stage.progress(fraction); });
+  stage.end();
+  for (std::size_t i = 0; i < read_.files.size(); ++i)
+    for (const std::string& text : read_.notes[i].warnings) warn_at_once(read_.files[i].path + ": " + text);
+  for (const std::string& text : read_.together) warn_at_once(text);
 }
 
 void MethodRun::warn_at_once(const std::string& text) {
@@ -124,32 +180,63 @@ void MethodRun::warn_at_once(const std::string& text) {
   told_.push_back(text);
 }
 
+/// source_index counts the rows of the files, also where some of them were left out before the work.
+void MethodRun::name_rows_of_files() {
+  auto& attributes = result.mesh.vertex_attributes;
+  const auto found =
+      std::find_if(attributes.rbegin(), attributes.rend(), [](const Attribute& a) { return a.name == "source_index"; });
+  if (read_.rows.empty() || found == attributes.rend()) return;
+  std::vector<std::uint32_t> rows(result.mesh.vertices.size());
+  for (std::size_t v = 0; v < rows.size(); ++v)
+    rows[v] = read_.rows[static_cast<std::size_t>(attribute_value(*found, v))];
+  *found = make_attribute("source_index", rows);
+}
+
 void MethodRun::reconstruct(const Options& options) {
   check_memory(cloud, options.max_memory);
   warn_at_once(memory_warning(forecast(cloud), available_memory_bytes()));
-  if (request_.method.contains("smoothing") && options.smooth == 0)
+  const auto smoothing = request_.method.find("smoothing");
+  if (smoothing != request_.method.end() && smoothing->second.text && options.smooth == 0)
     warn_at_once("--smoothing has no effect without --smooth N");
   result = eigencrust::reconstruct(cloud, options, *observer_);
-  result.report.command = arguments_.command;
-  result.report.files = std::move(files_);
+  name_rows_of_files();
+  result.report.command = command_;
+  result.report.files = std::move(read_.files);
   result.report.warnings.insert(result.report.warnings.begin(), told_.begin(), told_.end());
 }
 
-WriteOptions MethodRun::write_options() const {
-  throw_if_cancelled(*observer_, "writing");
-  return {.spacing = result.report.spacing, .comments = {std::string("made by eigencrust ") + version()}};
-}
-
-void MethodRun::finish(const WriteResult& written) {
+void MethodRun::finish(const std::function<WriteResult(OutputFiles&, const std::string&, const WriteOptions&)>& write) {
   Report& report = result.report;
+  FileStage stage(*observer_, "writing");
+  OutputFiles files;
+  std::vector<std::string> comments = frame_comments(request_.input);
+  comments.insert(comments.begin(), std::string("made by eigencrust ") + version());
+  const WriteResult written = write(files, real_output(request_.output),
+                                    {.spacing = report.spacing,
+                                     .comments = std::move(comments),
+                                     .format = request_.format,
+                                     .shift = shift_of_inputs(request_.input)});
   report.warnings.insert(report.warnings.end(), written.warnings.begin(), written.warnings.end());
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   report.peak_memory_bytes = peak_memory_bytes();
-  if (!request_.report.empty())
-    write_file_atomically(request_.report, [&](std::ostream& out) { out << to_json(report) << "\n"; });
+  if (!request_.report.empty()) {
+    const std::string text = to_json(report) + "\n";
+    files.add(real_output(request_.report), [&](std::ostream& out) { out << text; });
+  }
+  Commit commit;
+  files.put_in_place();
+  commit.done(report.broken_guarantees.empty() ? 0 : static_cast<int>(ErrorKind::guarantee));
+  stage.end();
   clear_progress();
   if (request_.quiet) return;
   for (std::size_t i = told_.size(); i < report.warnings.size(); ++i) print_warning(report.warnings[i]);
+}
+
+std::ostream& MethodRun::summary() const {
+  static std::ostream nowhere(nullptr);
+  if (request_.quiet) return nowhere;
+  const bool taken = is_standard_output(request_.output) || is_standard_output(request_.report);
+  return !taken ? std::cout : speaks_json() ? nowhere : std::cerr;
 }
 
 std::string MethodRun::cost() const {
@@ -157,11 +244,18 @@ std::string MethodRun::cost() const {
          " MB";
 }
 
+std::string MethodRun::selection() const {
+  if (read_.rows.empty() || read_.rows.size() == read_.rows_read) return {};
+  const std::string by = request_.input.thin.empty()   ? "--crop"
+                         : request_.input.crop.empty() ? "--thin"
+                                                       : "--crop and --thin";
+  return "  " + grouped(read_.rows.size()) + " of " + grouped(read_.rows_read) + " points kept by " + by + "\n";
+}
+
 int MethodRun::status() const {
   if (result.report.broken_guarantees.empty()) return 0;
   for (const std::string& text : result.report.broken_guarantees)
-    std::cerr << "eigencrust: error: the mesh is not " << text
-              << " (validate); report this as a fault of the program\n";
+    print_error(("the mesh is not " + text + " (validate); report this as a fault of the program").c_str());
   return static_cast<int>(ErrorKind::guarantee);
 }
 

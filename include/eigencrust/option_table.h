@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <eigencrust/options.h>
 
@@ -25,6 +26,7 @@ struct OptionEntry {
     bytes   ///< 4G, 500M, a number of bytes
   };
   enum class Group : std::uint8_t {
+    known,     ///< points whose side is known beforehand
     method,    ///< changes the labels or which pieces are kept
     smoothing, ///< of the mesh
     run,       ///< threads and memory
@@ -34,10 +36,17 @@ struct OptionEntry {
   std::string_view name; ///< as on the command line without its dashes: grid-spacing
   Kind kind = Kind::choice;
   Group group = Group::method;
-  std::string_view help;                                   ///< without a full stop and without the default
+  std::string_view value; ///< what help shows for it: "L", or the words of a choice: "on|off"
+  std::string_view help;  ///< without a full stop and without the default
   void (*set)(Options& options, const std::string& value); ///< \throws Error{usage} naming the accepted values
-  std::string (*get)(const Options& options);              ///< reads back through `set`, but for points
+  std::string (*get)(const Options& options);              ///< reads back through `set`, but for points and "none"
 };
+
+/// The heading under which help lists a group; empty for what is not on the command line.
+std::string_view chapter(OptionEntry::Group group);
+
+/// The words of a choice, empty where other values are accepted, too.
+std::vector<std::string> choices(const OptionEntry& entry);
 
 /// All of them; `preset` comes first, for it replaces what was set before.
 std::span<const OptionEntry> option_table();

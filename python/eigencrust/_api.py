@@ -69,6 +69,11 @@ def _make_cloud(points: Any, **further: Any) -> _core.PointCloud:
 
 def _checked(result: _core.Result) -> _core.Result:
     """Logs the warnings. A result that is not what it was promised to be does not pass."""
+    left_out = result.report["input"]["nonfinite"]
+    if left_out == 1:
+        logger.warning("1 row that is NaN or infinite was left out")
+    elif left_out > 1:
+        logger.warning("%d rows that are NaN or infinite were left out", left_out)
     for text in result.warnings:
         logger.warning("%s", text)
     if result.broken_guarantees:
@@ -272,11 +277,12 @@ def info(points: Any, *, threads: int = 0) -> Dict[str, Any]:
     """What is in a cloud, an array or a file: counts, bounds, spacing, sensors, attributes; forecast of memory and
     time."""
     notes: List[str] = []
+    warnings: List[str] = []
     if isinstance(points, (str, os.PathLike)):
-        points, notes = _core.read_point_cloud(points, [], "auto", True)
+        points, notes, warnings = _core.read_point_cloud(points, [], "auto", True)
     cloud = _make_cloud(points, nonfinite="skip")
     figures: Dict[str, Any] = json.loads(_core.info_json(cloud, threads))
-    figures["notes"] = notes
+    figures["notes"], figures["warnings"] = notes, warnings
     return figures
 
 
@@ -294,11 +300,13 @@ def read_point_cloud(
     """Reads a cloud with all its attributes: ply e57 las ptx pcd pts npz npy xyz txt asc csv obj off stl.
 
     columns: names of a text file's columns in order, "-" skips one. pcd_viewpoint: auto, sensor, pose or none.
-    sensors: False leaves out what the file says of sensors. What was dropped or read in one of two ways is logged.
+    sensors: False leaves out what the file says of sensors. What could be read in two ways is
+    logged as information, what was left out or looks wrong as a warning.
     """
-    cloud, notes = _core.read_point_cloud(path, list(columns), pcd_viewpoint, sensors)
+    cloud, notes, warnings = _core.read_point_cloud(path, list(columns), pcd_viewpoint, sensors)
     for note in notes:
         logger.info("%s: %s", path, note)
+    _warned(path, warnings)
     return cloud
 
 
@@ -307,7 +315,7 @@ def read_mesh(path: Path) -> _core.Mesh:
     return _core.read_mesh(path)
 
 
-def _written(path: Path, warnings: Iterable[str]) -> None:
+def _warned(path: Path, warnings: Iterable[str]) -> None:
     for text in warnings:
         logger.warning("%s: %s", path, text)
 
@@ -327,7 +335,7 @@ def write_mesh(
     """
     if spacing is None:
         spacing = mesh.report["input"]["spacing"] if isinstance(mesh, _core.Result) else 0.0
-    _written(path, _core.write_mesh(path, as_mesh(mesh, "mesh"), coordinates, spacing, list(comments)))
+    _warned(path, _core.write_mesh(path, as_mesh(mesh, "mesh"), coordinates, spacing, list(comments)))
 
 
 def write_point_cloud(
@@ -335,7 +343,7 @@ def write_point_cloud(
 ) -> None:
     """Writes a cloud with its attributes, whole or not at all: ply xyz txt asc csv."""
     made = _make_cloud(cloud, nonfinite="skip")
-    _written(path, _core.write_point_cloud(path, made, coordinates, spacing, list(comments)))
+    _warned(path, _core.write_point_cloud(path, made, coordinates, spacing, list(comments)))
 
 
 def join_scans(scans: Sequence[Union["ArrayLike", _core.PointCloud]]) -> _core.PointCloud:

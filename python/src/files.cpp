@@ -3,6 +3,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <array>
+#include <tuple>
 #include <utility>
 
 #include <eigencrust/error.h>
@@ -33,28 +34,22 @@ constexpr std::array<std::pair<const char*, PcdViewpoint>, 4> viewpoints{{{"auto
 constexpr std::array<std::pair<const char*, CoordinateType>, 3> coordinate_types{
     {{"auto", CoordinateType::automatic}, {"float32", CoordinateType::float32}, {"float64", CoordinateType::float64}}};
 
-/// The cloud and what its reader had to say.
-std::pair<std::shared_ptr<PointCloud>, std::vector<std::string>> read_cloud(const fs::path& path,
-                                                                            std::vector<std::string> columns,
-                                                                            const std::string& pcd_viewpoint,
-                                                                            bool sensors) {
-  const ReadOptions options{std::move(columns), choice(viewpoints, "pcd_viewpoint", pcd_viewpoint), sensors};
-  std::vector<std::string> notes;
+/// The cloud, what its reader understood, and its warnings.
+std::tuple<std::shared_ptr<PointCloud>, std::vector<std::string>, std::vector<std::string>> read_cloud(
+    const fs::path& path, std::vector<std::string> columns, const std::string& pcd_viewpoint, bool sensors) {
+  const ReadOptions options{.columns = std::move(columns),
+                            .pcd_viewpoint = choice(viewpoints, "pcd_viewpoint", pcd_viewpoint),
+                            .sensors = sensors};
+  ReadNotes notes;
   const py::gil_scoped_release unlocked;
   auto cloud = std::make_shared<PointCloud>(read_point_cloud(path, options, &notes));
-  return {std::move(cloud), std::move(notes)};
+  return {std::move(cloud), std::move(notes.notes), std::move(notes.warnings)};
 }
 
 WriteOptions write_options(const std::string& coordinates, double spacing, std::vector<std::string> comments) {
-  return {choice(coordinate_types, "coordinates", coordinates), spacing, std::move(comments)};
-}
-
-std::vector<std::string> warnings_of(const WriteResult& written) {
-  std::vector<std::string> warnings = written.warnings;
-  if (!(written.offset == Vec3{}))
-    warnings.push_back("the offset (" + std::to_string(written.offset.x) + ", " + std::to_string(written.offset.y) +
-                       ", " + std::to_string(written.offset.z) + ") was subtracted from the coordinates");
-  return warnings;
+  return {.coordinates = choice(coordinate_types, "coordinates", coordinates),
+          .spacing = spacing,
+          .comments = std::move(comments)};
 }
 
 } // namespace
@@ -69,13 +64,13 @@ void bind_files(py::module_& module) {
                               double spacing, std::vector<std::string> comments) {
     const WriteOptions options = write_options(coordinates, spacing, std::move(comments));
     const py::gil_scoped_release unlocked;
-    return warnings_of(write_mesh(path, mesh, options));
+    return write_mesh(path, mesh, options).warnings;
   });
   module.def("write_point_cloud", [](const fs::path& path, const PointCloud& cloud, const std::string& coordinates,
                                      double spacing, std::vector<std::string> comments) {
     const WriteOptions options = write_options(coordinates, spacing, std::move(comments));
     const py::gil_scoped_release unlocked;
-    return warnings_of(write_point_cloud(path, cloud, options));
+    return write_point_cloud(path, cloud, options).warnings;
   });
   module.def("join_scans", [](const std::vector<std::shared_ptr<PointCloud>>& scans) {
     const py::gil_scoped_release unlocked;
@@ -94,8 +89,8 @@ void bind_files(py::module_& module) {
     read_scan_sensors(path, *seen);
     return seen;
   });
-  module.def("can_write_mesh", &can_write_mesh);
-  module.def("can_write_point_cloud", &can_write_point_cloud);
+  module.def("can_write_mesh", [](const fs::path& path) { return can_write_mesh(path); });
+  module.def("can_write_point_cloud", [](const fs::path& path) { return can_write_point_cloud(path); });
   module.def("sha256_of_file", &sha256_of_file, py::call_guard<py::gil_scoped_release>());
 }
 

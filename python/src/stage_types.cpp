@@ -124,7 +124,7 @@ void bind_graphs(py::module_& m) {
       .def_readonly("components", &Partition::components)
       .def_readonly("free_components", &Partition::free_components)
       .def_readonly("undecided", &Partition::undecided)
-      .def_property_readonly("status", [](const Partition& p) { return to_string(p.status); });
+      .def_property_readonly("status", [](const SolvedPartition& p) { return to_string(p.status); });
 }
 
 void bind_sight(py::module_& m) {

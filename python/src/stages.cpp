@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every stage of eigencrust/stages.h. The library trusts what its stages hand each other; here it is checked that
 // the pieces fit.
+#include <pybind11/stl.h>
+
 #include <eigencrust/error.h>
 #include <eigencrust/option_table.h>
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "io/attributes.h"
+#include "io/colours.h"
 #include "io/formats.h"
 #include "io/polygons.h"
 #include "io/text_output.h"
@@ -123,6 +124,32 @@ class ObjReader {
   std::uint64_t largest_line_ = 0; ///< 0: no face yet
 };
 
+/// `v x y z`, with the colour where there is one.
+void append_vertex(std::string& text, const Vec3& p, const std::optional<ViewerColours>& colours, std::size_t row,
+                   bool as_float) {
+  text += "v ";
+  append_point(text, p, ' ', as_float);
+  if (colours) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      text += ' ';
+      // A float's own digits: as a double it would have eight more that mean nothing.
+      append_coordinate(text, colours->fraction(k, row), colours->source[0]->type == ScalarType::float32);
+    }
+  }
+  text += '\n';
+}
+
+/// nx, ny and nz; empty: they are not all there.
+std::vector<const Attribute*> find_normals(const std::vector<Attribute>& attributes) {
+  std::vector<const Attribute*> normals;
+  for (const char* name : {"nx", "ny", "nz"}) {
+    const Attribute* column = find_attribute(attributes, name);
+    if (column == nullptr || column->is_list) return {};
+    normals.push_back(column);
+  }
+  return normals;
+}
+
 } // namespace
 
 TriangleMesh read_obj(const FileContent& file) { return ObjReader(file).read(); }
@@ -130,23 +157,15 @@ TriangleMesh read_obj(const FileContent& file) { return ObjReader(file).read(); 
 Body prepare_obj(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result) {
   const bool as_float = options.coordinates == CoordinateType::float32;
   result.coordinates = as_float ? CoordinateType::float32 : CoordinateType::float64;
-  warn_lost_attributes(mesh.vertex_attributes, "vertices", 3, "OBJ", result.warnings);
-  warn_lost_attributes(mesh.triangle_attributes, "triangles", 0, "OBJ", result.warnings);
   const auto colours = find_colours(mesh.vertex_attributes);
+  warn_lost_attributes(mesh.vertex_attributes, "vertices", colours ? &*colours : nullptr, false, "OBJ",
+                       result.warnings);
+  warn_lost_attributes(mesh.triangle_attributes, "triangles", nullptr, false, "OBJ", result.warnings);
   return [&mesh, comments = options.comments, colours, as_float](std::ostream& out) {
     TextBuffer buffer(out);
     append_comments(buffer.text(), "# ", comments);
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-      buffer.text() += "v ";
-      append_point(buffer.text(), mesh.vertices[i], ' ', as_float);
-      if (colours) {
-        for (const Attribute* channel : colours->rgb) {
-          buffer.text() += ' ';
-          // A float's own digits: as a double it would have eight more that mean nothing.
-          append_coordinate(buffer.text(), colour_fraction(*channel, i), channel->type == ScalarType::float32);
-        }
-      }
-      buffer.text() += '\n';
+      append_vertex(buffer.text(), mesh.vertices[i], colours, i, as_float);
       buffer.flush_if_full();
     }
     for (const auto& triangle : mesh.triangles) {
@@ -156,6 +175,29 @@ Body prepare_obj(const TriangleMesh& mesh, const WriteOptions& options, WriteRes
         append_number(buffer.text(), std::int64_t{vertex} + 1);
       }
       buffer.text() += '\n';
+      buffer.flush_if_full();
+    }
+  };
+}
+
+Body prepare_obj(const PointCloud& cloud, const WriteOptions& options, WriteResult& result) {
+  const bool as_float = options.coordinates == CoordinateType::float32;
+  result.coordinates = as_float ? CoordinateType::float32 : CoordinateType::float64;
+  const std::vector<const Attribute*> normals = find_normals(cloud.attributes);
+  const auto colours = find_colours(cloud.attributes);
+  warn_lost_attributes(cloud.attributes, "points", colours ? &*colours : nullptr, false, "OBJ", result.warnings,
+                       normals);
+  return [&cloud, comments = options.comments, colours, normals, as_float](std::ostream& out) {
+    TextBuffer buffer(out);
+    append_comments(buffer.text(), "# ", comments);
+    for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+      append_vertex(buffer.text(), cloud.points[i], colours, i, as_float);
+      if (!normals.empty()) {
+        buffer.text() += "vn ";
+        const Vec3 n{attribute_value(*normals[0], i), attribute_value(*normals[1], i), attribute_value(*normals[2], i)};
+        append_point(buffer.text(), n, ' ', true);
+        buffer.text() += '\n';
+      }
       buffer.flush_if_full();
     }
   };

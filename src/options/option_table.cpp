@@ -80,86 +80,88 @@ std::string facade_text(const Options& o) {
 }
 
 constexpr std::array<OptionEntry, 24> table{{
-    {"preset", Kind::choice, Group::method,
+    {"preset", Kind::choice, Group::method, "robust|paper",
      "robust: the measured best; paper: Kolluri, Shewchuk, O'Brien 2004 to the letter",
      [](Options& o, const std::string& text) { o = Options::of(parse_preset(text)); },
      [](const Options& o) { return to_string(o.preset); }},
-    {"noise", Kind::length, Group::method,
+    {"noise", Kind::length, Group::method, "L",
      "Standard deviation of the noise: auto (measured at the samples), off, a length, N%",
      [](Options& o, const std::string& text) { o.noise = parse_length_choice("noise", text); },
      [](const Options& o) { return to_string(o.noise); }},
-    {"grid-spacing", Kind::length, Group::method, "Diagonal of the scanner's grid squares: auto, off, a length, N%",
+    {"grid-spacing", Kind::length, Group::method, "L",
+     "Diagonal of the scanner's grid squares: auto, off, a length, N%",
      [](Options& o, const std::string& text) { o.grid_spacing = parse_length_choice("grid spacing", text); },
      [](const Options& o) { return to_string(o.grid_spacing); }},
-    {"questionable", Kind::choice, Group::method,
+    {"questionable", Kind::choice, Group::method, "before|after|never",
      "Tetrahedra under 4 grid spacings lose their say before or after the first partition, or never",
      [](Options& o, const std::string& text) { o.questionable = parse_questionable(text); },
      [](const Options& o) { return to_string(o.questionable); }},
-    {"weights", Kind::choice, Group::method,
+    {"weights", Kind::choice, Group::method, "evidence|paper",
      "Pole pairs: evidence (isolated samples, which may be outliers, count little) or paper (all count)",
      [](Options& o, const std::string& text) { o.weights = parse_weights(text); },
      [](const Options& o) { return to_string(o.weights); }},
-    {"second-stage", Kind::choice, Group::method,
+    {"second-stage", Kind::choice, Group::method, "cut|harmonic|eigenvector",
      "How all tetrahedra are settled: cut, or as the paper does: harmonic, eigenvector",
      [](Options& o, const std::string& text) { o.second_stage = parse_second_stage(text); },
      [](const Options& o) { return to_string(o.second_stage); }},
-    {"eigensolver", Kind::choice, Group::method, "multigrid or lanczos (the slow reference)",
+    {"eigensolver", Kind::choice, Group::method, "multigrid|lanczos", "multigrid or lanczos (the slow reference)",
      [](Options& o, const std::string& text) { o.solver.eigensolver = parse_eigensolver(text); },
      [](const Options& o) { return to_string(o.solver.eigensolver); }},
-    {"tolerance", Kind::number, Group::method,
+    {"tolerance", Kind::number, Group::method, "X",
      "Residual at which an eigenvector counts as converged; given, signs alone do not stop it", set_tolerance,
      [](const Options& o) { return shortest(o.solver.tolerance); }},
-    {"max-steps", Kind::count, Group::method, "Steps of the solver at most",
+    {"max-steps", Kind::count, Group::method, "N", "Steps of the solver at most",
      [](Options& o, const std::string& text) { o.solver.max_steps = parse_count("number of steps", text); },
      [](const Options& o) { return std::to_string(o.solver.max_steps); }},
-    {"manifold", Kind::flag, Group::method, "Make the surface a manifold",
+    {"manifold", Kind::flag, Group::method, "", "Make the surface a manifold",
      [](Options& o, const std::string& text) { o.manifold = parse_flag(text); },
      [](const Options& o) { return flag_text(o.manifold); }},
-    {"components", Kind::choice, Group::method, "Pieces to keep: supported, all, largest or a number",
+    {"components", Kind::choice, Group::method, "KEEP", "Pieces to keep: supported, all, largest or a number",
      [](Options& o, const std::string& text) { o.components = parse_components(text); },
      [](const Options& o) { return to_string(o.components); }},
-    {"outside-point", Kind::points, Group::method, "x,y,z of a point known to be outside; repeatable",
+    {"outside-point", Kind::points, Group::known, "X,Y,Z", "x,y,z of a point known to be outside; repeatable",
      [](Options& o, const std::string& text) { o.outside_points.push_back(parse_point(text)); },
      [](const Options& o) { return points_text(o.outside_points); }},
-    {"inside-point", Kind::points, Group::method, "x,y,z of a point known to be inside; repeatable",
+    {"inside-point", Kind::points, Group::known, "X,Y,Z", "x,y,z of a point known to be inside; repeatable",
      [](Options& o, const std::string& text) { o.inside_points.push_back(parse_point(text)); },
      [](const Options& o) { return points_text(o.inside_points); }},
-    {"crossing-depth", Kind::length, Group::method,
+    {"crossing-depth", Kind::length, Group::method, "L",
      "Where sensors are known: a line of sight crosses what it enters farther than this from its sample; auto or a "
      "length",
      [](Options& o, const std::string& text) { o.crossing_depth = parse_crossing_depth(text); },
      [](const Options& o) { return o.crossing_depth ? shortest(*o.crossing_depth) : std::string("auto"); }},
-    {"facade", Kind::choice, Group::method,
+    {"facade", Kind::choice, Group::method, "auto|off|+x|-x|+y|-y|+z|-z",
      "One-sided scan: auto (found from the sensors), off, or outside in front along +x -x +y -y +z or -z: the mesh "
      "stays open",
      set_facade, facade_text},
-    {"trim", Kind::flag, Group::method, "Leave out triangles that the samples do not bear out: the mesh is then open",
+    {"trim", Kind::flag, Group::method, "",
+     "Leave out triangles that the samples do not bear out: the mesh is then open",
      [](Options& o, const std::string& text) { o.trim = parse_flag(text); },
      [](const Options& o) { return flag_text(o.trim); }},
-    {"smooth", Kind::count, Group::smoothing, "Smoothing steps; vertices then leave the samples",
+    {"smooth", Kind::count, Group::smoothing, "N", "Smoothing steps; vertices then leave the samples",
      [](Options& o, const std::string& text) { o.smooth = parse_count("number of steps", text); },
      [](const Options& o) { return std::to_string(o.smooth); }},
-    {"smoothing", Kind::choice, Group::smoothing, "laplacian or taubin (keeps the volume)",
+    {"smoothing", Kind::choice, Group::smoothing, "laplacian|taubin", "laplacian or taubin (keeps the volume)",
      [](Options& o, const std::string& text) { o.smoothing = parse_smoothing(text); },
      [](const Options& o) { return to_string(o.smoothing); }},
-    {"threads", Kind::count, Group::run, "Threads, 0 for all cores; the result is the same for any number",
+    {"threads", Kind::count, Group::run, "N", "Threads, 0 for all cores; the result is the same for any number",
      [](Options& o, const std::string& text) { o.threads = parse_count("number of threads", text); },
      [](const Options& o) { return std::to_string(o.threads); }},
-    {"max-memory", Kind::bytes, Group::run,
+    {"max-memory", Kind::bytes, Group::run, "SIZE",
      "Refuse the cloud, before any work, if more memory is forecast: 4G, 500M, bytes",
-     [](Options& o, const std::string& text) { o.max_memory = text == "none" ? 0 : parse_memory_size(text); },
+     [](Options& o, const std::string& text) { o.max_memory = parse_memory_size(text); },
      [](const Options& o) { return o.max_memory == 0 ? std::string("none") : std::to_string(o.max_memory); }},
-    {"point-results", Kind::flag, Group::library,
+    {"point-results", Kind::flag, Group::library, "",
      "Also say of every input row whether it belongs to the surface, and its normal",
      [](Options& o, const std::string& text) { o.point_results = parse_flag(text); },
      [](const Options& o) { return flag_text(o.point_results); }},
-    {"global-sign", Kind::choice, Group::library,
+    {"global-sign", Kind::choice, Group::library, "vote|supernode",
      "How inside is told from outside once the two sides are apart: vote or supernode", set_global_sign,
      [](const Options& o) { return to_string(o.global_sign); }},
-    {"manifold-rule", Kind::choice, Group::library,
+    {"manifold-rule", Kind::choice, Group::library, "cheapest|paper",
      "What is relabelled where the surface is no manifold: cheapest or paper", set_manifold_rule,
      [](const Options& o) { return to_string(o.manifold_rule); }},
-    {"stable-share", Kind::number, Group::library,
+    {"stable-share", Kind::number, Group::library, "X",
      "Share of all nodes that may still change sign when the solver stops because signs are stable, in (0, 1]",
      set_stable_share, [](const Options& o) { return shortest(o.solver.stable_share); }},
 }};
@@ -167,6 +169,33 @@ constexpr std::array<OptionEntry, 24> table{{
 } // namespace
 
 std::span<const OptionEntry> option_table() { return table; }
+
+std::string_view chapter(Group group) {
+  switch (group) {
+    case Group::known:
+      return "What is known beforehand";
+    case Group::method:
+      return "Method";
+    case Group::smoothing:
+      return "Results";
+    case Group::run:
+      return "Running";
+    case Group::library:
+      return {};
+  }
+  return {};
+}
+
+std::vector<std::string> choices(const OptionEntry& entry) {
+  std::vector<std::string> words;
+  if (entry.value.find('|') == std::string_view::npos) return words;
+  for (std::size_t begin = 0; begin <= entry.value.size();) {
+    const std::size_t end = std::min(entry.value.find('|', begin), entry.value.size());
+    words.emplace_back(entry.value.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
 
 std::string describe_default(const OptionEntry& entry) {
   const std::string robust = entry.get(Options::of(Preset::robust)), paper = entry.get(Options::of(Preset::paper));

@@ -16,6 +16,7 @@ struct HandleCounts;
 struct RecoveryCounts;
 struct SampleMeasures;
 struct SamplesApart;
+struct TurnedOver;
 struct UnsupportedTriangles;
 struct LinesOfSight;
 struct Contradictions;
@@ -37,6 +38,7 @@ void describe(const Contradictions& contradictions, Run& run);
 void describe(const std::vector<DroppedComponent>& dropped, Run& run);
 void describe(const SamplesApart& samples, Run& run);
 void describe(const UnsupportedTriangles& unsupported, Run& run);
+void describe(const TurnedOver& turned, Run& run);
 void describe(const PointResults& results, Run& run);
 void describe(const MeshSummary& mesh, Run& run);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/exact_difference.h"
 #include "surface/surface.h"
+#include "surface/turned_over.h"
 
 namespace eigencrust {
 namespace {
@@ -15,8 +16,22 @@ bool is_exact_translation(const Tetrahedralization& t, const PointCloud& cloud, 
   return rounded == 0;
 }
 
+/// Smoothes, and puts the vertices into input coordinates: where these round, neighbours could meet.
+TurnedOver smooth_in_place(Surface& surface, const Tetrahedralization& t, const PointCloud& cloud,
+                           const Options& options, const Threads& threads) {
+  smooth(surface.mesh, options.smoothing, options.smooth, threads);
+  std::vector<Vec3> rows;
+  rows.reserve(surface.sample_of.size());
+  for (const SampleIndex s : surface.sample_of) rows.push_back(cloud.points[t.source[s]]);
+  for (std::size_t v = 0; v < rows.size(); ++v) {
+    Vec3& place = surface.mesh.vertices[v];
+    place = place == t.positions[surface.sample_of[v]] ? rows[v] : place + t.origin;
+  }
+  return take_back_turned(rows, surface.mesh, threads);
+}
+
 /// The surface in input coordinates with the attributes of its points and source_index. Unless the
-/// vertices were moved they are the input's rows bit for bit.
+/// vertices were moved, and are in input coordinates, they are the input's rows bit for bit.
 TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, const PointCloud& cloud, bool moved) {
   TriangleMesh mesh;
   mesh.triangles = surface.mesh.triangles;
@@ -25,7 +40,7 @@ TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, co
   for (const SampleIndex s : surface.sample_of) source.push_back(t.source[s]);
   mesh.vertices.reserve(source.size());
   for (std::size_t v = 0; v < source.size(); ++v)
-    mesh.vertices.push_back(moved ? surface.mesh.vertices[v] + t.origin : cloud.points[source[v]]);
+    mesh.vertices.push_back(moved ? surface.mesh.vertices[v] : cloud.points[source[v]]);
   for (const Attribute& attribute : cloud.attributes) mesh.vertex_attributes.push_back(gather(attribute, source));
   mesh.vertex_attributes.push_back(make_attribute("source_index", source));
   if (!cloud.scan_index.empty()) {
@@ -43,7 +58,7 @@ TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, co
 TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene, const Context& context) {
   const auto& [options, run, threads] = context;
   if (options.smooth > 0)
-    run.stage("smoothing", [&] { smooth(surface.mesh, options.smoothing, options.smooth, threads); });
+    run.stage("smoothing", [&] { return smooth_in_place(surface, scene.tetrahedralization, cloud, options, threads); });
   return run.stage("attributes",
                    [&] { return finish_mesh(surface, scene.tetrahedralization, cloud, options.smooth > 0); });
 }

@@ -93,7 +93,7 @@ class Whole(unittest.TestCase):
         for method in ("harmonic", "eigenvector"):
             settled = self.settled(method)
             self.assertEqual(len(settled), len(self.tets))
-            np.testing.assert_array_equal(settled.labels == stages.OUTSIDE, settled.values > 0)
+            np.testing.assert_array_equal(settled.labels == stages.OUTSIDE, settled.values >= 0)
             manifold, counts = stages.make_manifold(self.tets, self.stars, self.poles, self.known, settled)
             self.assertEqual(counts.relabelled >= (manifold.labels != settled.labels).sum(), True)
             surface = stages.extract_surface(self.tets, manifold.labels)
@@ -110,7 +110,12 @@ class Whole(unittest.TestCase):
         cloud = eigencrust.PointCloud(self.points, sensors=(100, 0, 9))
         lines = stages.sight_lines(cloud, self.samples, self.tets, np.full(1520, 0.02))
         self.assertEqual((len(lines), len(lines.sample), len(lines.depth), lines.target.shape), (1520, 1520, 1520, (1520, 3)))
-        np.testing.assert_allclose(lines.target + np.array(self.samples.origin), np.tile([100, 0, 9], (1520, 1)))
+        # They look from the sample to the scanner, and end there or where they leave the box of the samples.
+        sample = self.tets.positions[lines.sample]
+        way, ended = np.array([100, 0, 9]) - self.samples.origin - sample, lines.target - sample
+        np.testing.assert_allclose(np.cross(way, ended), 0, atol=1e-9)
+        share = (way * ended).sum(axis=1) / (way * way).sum(axis=1)
+        self.assertTrue(((0 <= share) & (share <= 1)).all())
         crossings = stages.sight_crossings(self.tets, self.stars, lines, self.known)
         self.assertEqual(len(crossings.begin), 1521)
         self.assertEqual(crossings.begin[-1], len(crossings.tetrahedra))

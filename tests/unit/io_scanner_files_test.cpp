@@ -153,9 +153,9 @@ TEST(IoScannerFilesValues, SensorsAndColumns) {
 // First and last record as an independent script unpacked them.
 TEST(IoScannerFilesValues, ColumnsOfLas) {
   EIGENCRUST_NEED_DATA(data_path("formats/las/extrabytes.las"));
-  std::vector<std::string> notes;
+  ReadNotes notes;
   const PointCloud cloud = read_point_cloud(data_path("formats/las/extrabytes.las"), {}, &notes);
-  EXPECT_THAT(notes, ::testing::ElementsAre("7 bytes of each point without a description left out"));
+  EXPECT_THAT(notes.notes, ::testing::ElementsAre("7 bytes of each point without a description left out"));
   const auto value = [&](const char* name, std::size_t row) {
     return attribute_value(*find_attribute(cloud.attributes, name), row);
   };

@@ -35,7 +35,7 @@ TEST(OptionTable, WhatIsReadCanBeSet) {
     const Options standard = Options::of(preset);
     Options again;
     for (const OptionEntry& entry : option_table())
-      if (entry.kind != OptionEntry::Kind::points) entry.set(again, entry.get(standard));
+      if (entry.get(standard) != "none") entry.set(again, entry.get(standard));
     for (const OptionEntry& entry : option_table()) EXPECT_EQ(entry.get(again), entry.get(standard)) << entry.name;
   }
 }
@@ -80,6 +80,27 @@ TEST(OptionTable, EveryOptionChangesWhatItIsNamedAfter) {
     tried.insert(name);
   }
   for (const OptionEntry& entry : option_table()) EXPECT_TRUE(tried.contains(std::string(entry.name))) << entry.name;
+}
+
+TEST(OptionTable, TheWordsOfAChoiceAreAcceptedAndNoOthers) {
+  std::size_t with_words = 0;
+  for (const OptionEntry& entry : option_table()) {
+    const std::vector<std::string> words = choices(entry);
+    for (const std::string& word : words) {
+      Options options;
+      EXPECT_NO_THROW(entry.set(options, word)) << entry.name;
+      EXPECT_EQ(entry.get(options), word) << entry.name;
+    }
+    if (words.empty()) continue;
+    ++with_words;
+    EXPECT_FALSE(refusal(std::string(entry.name), words[0] + "x").empty()) << entry.name;
+  }
+  EXPECT_GE(with_words, 8u);
+}
+
+TEST(OptionTable, WhatIsOnTheCommandLineHasAChapter) {
+  for (const OptionEntry& entry : option_table())
+    EXPECT_EQ(chapter(entry.group).empty(), entry.group == OptionEntry::Group::library) << entry.name;
 }
 
 TEST(OptionTable, UnderscoresAreAsGoodAsDashes) {
