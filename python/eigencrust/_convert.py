@@ -51,7 +51,9 @@ def mesh_to_open3d(mesh: _core.Mesh) -> Any:
     import open3d
 
     made = open3d.geometry.TriangleMesh(
-        open3d.utility.Vector3dVector(mesh.vertices), open3d.utility.Vector3iVector(mesh.triangles.astype(np.int32))
+        # Open3D takes no array that cannot be written: hence a copy for it to copy.
+        open3d.utility.Vector3dVector(np.array(mesh.vertices)),
+        open3d.utility.Vector3iVector(mesh.triangles.astype(np.int32)),
     )
     colours, normals = colours_of(mesh.vertex_attributes), normals_of(mesh.vertex_attributes)
     if colours is not None:
@@ -82,7 +84,7 @@ def cloud_to_open3d(cloud: _core.PointCloud) -> Any:
     """The cloud as open3d.geometry.PointCloud, with colours and normals where there are any. Needs Open3D."""
     import open3d
 
-    made = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(cloud.points))
+    made = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(np.array(cloud.points)))
     colours, normals = colours_of(cloud.attributes), normals_of(cloud.attributes)
     if colours is not None:
         made.colors = open3d.utility.Vector3dVector(colours)
