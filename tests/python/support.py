@@ -35,10 +35,30 @@ def sphere_with_outliers(n=3000, outliers=60, seed=1):
 def resident_bytes():
     """Memory of this process that is in use now; what was freed is given back first."""
     getattr(ctypes.CDLL(None), "malloc_trim", lambda _: None)(0)
-    with open("/proc/self/status", encoding="ascii") as file:
-        for line in file:
-            if line.startswith("VmRSS:"):
-                return 1024 * int(line.split()[1])
+    return status_bytes("VmRSS")
+
+
+def peak_bytes(work):
+    """What work() returns, and the most memory that was in use meanwhile beyond what was before."""
+    before = resident_bytes()
+    try:
+        with open("/proc/self/clear_refs", "w", encoding="ascii") as file:
+            file.write("5")  # the peak is measured from here on, see proc(5)
+    except OSError as error:
+        raise unittest.SkipTest("the peak of memory cannot be reset here") from error
+    made = work()
+    return made, status_bytes("VmHWM") - before
+
+
+def status_bytes(field):
+    """A figure of memory of this process."""
+    try:
+        with open("/proc/self/status", encoding="ascii") as file:
+            for line in file:
+                if line.startswith(field + ":"):
+                    return 1024 * int(line.split()[1])
+    except OSError:
+        pass
     raise unittest.SkipTest("no /proc/self/status here")
 
 
