@@ -10,7 +10,8 @@ if(BUILD_SHARED_LIBS)
   file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/include/eigencrust/*.h)
   list(TRANSFORM headers PREPEND include/)
   # What the libraries of files and pictures, and the Python module, use of the method's.
-  list(APPEND headers src/evidence/sensor_rows.h src/geometry/mesh_topology.h src/surface/attributes.h)
+  list(APPEND headers src/evidence/sensor_rows.h src/geometry/mesh_topology.h src/geometry/nearest.h
+       src/surface/attributes.h)
   foreach(header ${headers})
     string(REGEX REPLACE "^(include|src)/" "" wrapper ${header})
     file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/visible/${wrapper} CONTENT "#pragma once
@@ -26,6 +27,6 @@ function(eigencrust_hide_internals target)
     set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
     target_include_directories(${target} BEFORE PRIVATE ${PROJECT_BINARY_DIR}/visible)
     # Templates of other libraries that were compiled in are nobody else's.
-    target_link_options(${target} PRIVATE -Wl,--exclude-libs,ALL)
+    target_link_options(${target} PRIVATE -Wl,--exclude-libs,ALL -Wl,--no-undefined)
   endif()
 endfunction()
