@@ -3,7 +3,9 @@
 # and pkg-config, documentation, and the Python module if it was built. scripts/package.sh does all of it.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME eigencrust)
-set(CPACK_PACKAGE_CONTACT "The Eigencrust authors <eigencrust@localhost>")
+# A packager names himself; the default is an address that reaches nobody.
+set(EIGENCRUST_MAINTAINER "The Eigencrust authors <eigencrust@example.org>" CACHE STRING "Maintainer of the package")
+set(CPACK_PACKAGE_CONTACT "${EIGENCRUST_MAINTAINER}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "watertight manifold meshes from raw point clouds")
 set(CPACK_PACKAGE_DESCRIPTION
 "Eigencrust turns raw point clouds, noisy, with outliers and holes and without
@@ -15,6 +17,7 @@ and the Python module.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
@@ -42,12 +45,35 @@ License: GPL-3.0-or-later
  or later. On Debian systems its text is in /usr/share/common-licenses/GPL-3.
 ")
 install(FILES ${debian}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/eigencrust)
+# The time is SOURCE_DATE_EPOCH where that is set.
+string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)
+file(WRITE ${debian}/changelog.Debian
+"eigencrust (${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) unstable; urgency=medium
+
+  * What changed is in changelog.gz.
+
+ -- ${EIGENCRUST_MAINTAINER}  ${now}
+")
 find_program(GZIP_PROGRAM gzip)
 if(GZIP_PROGRAM)
   # Without name and time, so that the same source gives the same bytes.
   execute_process(COMMAND ${GZIP_PROGRAM} -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md
                   OUTPUT_FILE ${debian}/changelog.gz)
-  install(FILES ${debian}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/eigencrust)
+  execute_process(COMMAND ${GZIP_PROGRAM} -9nc ${debian}/changelog.Debian OUTPUT_FILE ${debian}/changelog.Debian.gz)
+  install(FILES ${debian}/changelog.gz ${debian}/changelog.Debian.gz
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/eigencrust)
+  # The manual page is made by the build and installed as it is; in the package it is compressed.
+  file(WRITE ${debian}/compress.cmake
+"file(GLOB pages \"\${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr/${CMAKE_INSTALL_MANDIR}/man1/*.1\")
+foreach(page \${pages})
+  execute_process(COMMAND ${GZIP_PROGRAM} -9nf \${page} COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+")
+  set(CPACK_PRE_BUILD_SCRIPTS ${debian}/compress.cmake)
 endif()
+
+# The linker's cache knows the libraries once the package is there.
+file(WRITE ${debian}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${debian}/triggers)
 
 include(CPack)
