@@ -84,8 +84,10 @@ struct ReadReport {
 PointCloud read_inputs(const InputOptions& options, ReadReport& report,
                        const std::function<void(double)>& progress = {});
 
-/// A few lines for people: counts, guarantees, size.
+/// A few lines for people: counts, guarantees, size. An open mesh has rims, and neither a volume nor a side.
 std::string describe(const MeshSummary& mesh);
+/// The same with what the run knows of it.
+std::string describe(const Report& report);
 /// 12345678 -> 12,345,678
 std::string grouped(std::uint64_t value);
 /// Three or four digits that matter.

@@ -211,6 +211,8 @@ PointCloud read_inputs(const InputOptions& options, ReadReport& report, const st
     if (options.paths.size() > 1)
       fail_usage("--scan-index goes with a single input", "leave it out: several inputs are several scans");
     cloud.scan_index = read_scan_index(options.scan_index, cloud.points.size());
+    cloud.grids.clear(); // they were those of other scans
+    cloud.cell.clear();
   }
   if (!options.sensors.empty() && options.sensors != "none") read_scan_sensors(options.sensors, cloud);
   note_sensors(cloud, report.files);
@@ -240,30 +242,69 @@ std::string show_point(const Vec3& point, double extent) {
   return text.data();
 }
 
-std::string describe(const MeshSummary& mesh) {
-  const auto count = [](std::uint64_t n, const char* one, const char* many) {
-    return grouped(n) + " " + (n == 1 ? one : many);
-  };
+namespace {
+
+std::string count_of(std::uint64_t n, const char* one, const char* many) {
+  return grouped(n) + " " + (n == 1 ? one : many);
+}
+
+/// Counts and guarantees. \param side what to call a mesh whose normals look inward
+std::string describe_shape(const MeshSummary& mesh, const std::string& side) {
   std::ostringstream out;
-  out << "  " << count(mesh.vertices, "vertex", "vertices") << ", " << count(mesh.triangles, "triangle", "triangles")
-      << ", " << count(mesh.components, "component", "components") << ", genus " << mesh.genus << "\n";
+  out << "  " << count_of(mesh.vertices, "vertex", "vertices") << ", "
+      << count_of(mesh.triangles, "triangle", "triangles") << ", "
+      << count_of(mesh.components, "component", "components") << ", genus " << mesh.genus << "\n";
   out << "  closed: "
-      << (mesh.closed() ? "yes" : "no (" + count(mesh.boundary_edges, "boundary edge", "boundary edges") + ")");
+      << (mesh.closed()
+              ? "yes"
+              : "no (" + count_of(mesh.boundary_edges, "boundary edge", "boundary edges") +
+                    (mesh.boundary_loops > 0 ? ", " + count_of(mesh.boundary_loops, "rim", "rims") : "") + ")");
   out << ", manifold: "
       << (mesh.manifold() ? "yes"
-                          : "no (" + count(mesh.nonmanifold_edges, "edge", "edges") + ", " +
-                                count(mesh.nonmanifold_vertices, "vertex", "vertices") + ")");
+                          : "no (" + count_of(mesh.nonmanifold_edges, "edge", "edges") + ", " +
+                                count_of(mesh.nonmanifold_vertices, "vertex", "vertices") + ")");
   out << ", oriented: "
-      << (mesh.oriented() ? (mesh.volume >= 0 || !mesh.closed() ? "yes" : "yes, inward")
-                          : "no (" + count(mesh.inconsistent_edges, "edge", "edges") + ")")
+      << (mesh.oriented() ? (mesh.closed() && mesh.volume < 0 ? "yes, " + side : "yes")
+                          : "no (" + count_of(mesh.inconsistent_edges, "edge", "edges") + ")")
       << "\n";
   if (mesh.degenerate_triangles > 0) out << "  degenerate triangles: " << grouped(mesh.degenerate_triangles) << "\n";
   out << "  self-intersections: "
       << (mesh.self_intersections < 0 ? "not counted"
                                       : grouped(static_cast<std::uint64_t>(mesh.self_intersections)) + " pairs")
       << "\n";
-  out << "  volume " << rounded(mesh.volume) << ", area " << rounded(mesh.area) << "\n";
   return out.str();
+}
+
+std::string describe_size(const MeshSummary& mesh) {
+  return (mesh.closed() ? "  volume " + rounded(mesh.volume) + ", area " : "  area ") + rounded(mesh.area);
+}
+
+} // namespace
+
+std::string describe(const MeshSummary& mesh) { return describe_shape(mesh, "inward") + describe_size(mesh) + "\n"; }
+
+std::string describe(const Report& report) {
+  const MeshSummary& mesh = report.mesh;
+  const bool rooms = report.surroundings.kind == SceneKind::interior;
+  std::string text = describe_shape(mesh, rooms ? "to the scanners" : "inward");
+  if (mesh.closed() && rooms)
+    text += "  interior: free space of " + rounded(-mesh.volume) + ", walls of " + rounded(mesh.area) + "\n";
+  else
+    text += describe_size(mesh);
+  if (mesh.closed() && rooms) return text;
+  if (!mesh.closed()) // what is left after trimming is covered
+    text += ", " + (report.options.trim ? "all" : rounded(100 * (1 - report.unsupported_area)) + " %") +
+            " of it covered by samples";
+  if (report.base) text += "; " + rounded(report.base->volume_above_rim) + " above the plane of the rim";
+  text += "\n";
+  if (report.surroundings.kind == SceneKind::facade)
+    text += "  one side: seen from " + to_string(report.surroundings.front) + ", solid behind" +
+            (report.options.facade
+                 ? ""
+                 : " (found from how the samples lie; --facade -z if it was seen from below, --facade off if "
+                   "it is a body)") +
+            "\n";
+  return text;
 }
 
 } // namespace eigencrust::cli

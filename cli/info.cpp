@@ -42,8 +42,7 @@ Json collect(const PointCloud& cloud, const ReadReport& read, unsigned threads) 
   json["warnings"] = read.together;
   json["grids"] = Json::array();
   if (const auto grids = find_grids(cloud))
-    for (const ScanGrids::Size& size : grids->sizes)
-      json["grids"].push_back({{"columns", size.columns}, {"rows", size.rows}});
+    for (const ScanGrid& size : grids->sizes) json["grids"].push_back({{"columns", size.columns}, {"rows", size.rows}});
   json.update(Json::parse(info_json(cloud, threads)));
   return json;
 }

@@ -25,6 +25,7 @@ struct Case {
   bool large = false; ///< 100,000 points or more: left out by --quick
   std::uint64_t seed = 1;
   std::function<Scene(Sources&, std::uint64_t seed)> make;
+  std::function<void(Options&)> how;     ///< options beside the preset's; may be null
   std::vector<Requirement> requirements; ///< none: the figures are for information
   /// Where the method may say why it cannot: an error whose text holds this word will do instead of the
   /// requirements, and so will a warning, if at least a hundredth of the samples is in the surface.
@@ -59,6 +60,7 @@ void add_noise_cases(std::vector<Case>& cases);      ///< noise alone, in all di
 void add_bunny_cases(std::vector<Case>& cases);      ///< the raw bunny, with more noise and scans moved apart
 void add_raw_cases(std::vector<Case>& cases);        ///< other raw scans
 void add_field_cases(std::vector<Case>& cases);      ///< parts, thin walls and what else people bring
+void add_open_field_cases(std::vector<Case>& cases); ///< rooms, buildings, ground, streets
 void add_real_field_cases(std::vector<Case>& cases); ///< the same with files of theirs
 
 } // namespace eigencrust::bench

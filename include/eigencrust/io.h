@@ -62,12 +62,7 @@ PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions
 
 /// The grids in which scanners or depth cameras saw their points: which point is beside which.
 struct ScanGrids {
-  struct Size {
-    std::uint32_t columns = 0, rows = 0; ///< 0 and 0: the scan has no grid
-
-    friend constexpr auto operator<=>(const Size&, const Size&) = default;
-  };
-  std::vector<Size> sizes;         ///< one per scan
+  std::vector<ScanGrid> sizes;     ///< one per scan
   std::vector<std::uint32_t> cell; ///< per point: row * columns + column in the grid of its scan, or no_index
 };
 /// From the attributes row and column, or rowIndex and columnIndex (in any case), of whole numbers from 0 on. Nothing

@@ -143,12 +143,12 @@ void bind_knowledge(py::module_& m) {
         check(stars, t);
         const std::vector<Vec3> outside = to_optional_points(outside_points, "outside_points"),
                                 inside = to_optional_points(inside_points, "inside_points");
-        std::optional<Axis> front;
-        if (facade) front = parse_axis(*facade);
+        Surroundings surroundings;
+        if (facade) surroundings = {.kind = SceneKind::facade, .front = parse_axis(*facade)};
         Labels labels;
         {
           const py::gil_scoped_release unlocked;
-          labels = known_labels(t, stars, outside, inside, front, Threads(threads));
+          labels = known_labels(t, stars, outside, inside, surroundings, Threads(threads));
         }
         return own(std::move(labels.raw()));
       },

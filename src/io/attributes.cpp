@@ -109,7 +109,8 @@ void append_attributes(PointCloud& cloud, PointCloud& next) {
   }
 }
 
-void append_scan_index(PointCloud& cloud, const PointCloud& next) {
+/// \return what was added to the scan numbers of `next`
+std::uint32_t append_scan_index(PointCloud& cloud, const PointCloud& next) {
   const std::size_t rows = cloud.points.size();
   if (cloud.scan_index.empty()) cloud.scan_index.assign(rows, 0);
   const std::uint64_t first = 1 + std::uint64_t{*std::max_element(cloud.scan_index.begin(), cloud.scan_index.end())};
@@ -121,6 +122,23 @@ void append_scan_index(PointCloud& cloud, const PointCloud& next) {
   cloud.scan_index.reserve(rows + next.points.size());
   if (next.scan_index.empty()) cloud.scan_index.resize(rows + next.points.size(), shift);
   for (const std::uint32_t scan : next.scan_index) cloud.scan_index.push_back(scan + shift);
+  return shift;
+}
+
+/// \param shift of the scan numbers of `next`
+void append_cells(PointCloud& cloud, const PointCloud& next, std::uint32_t shift) {
+  if (cloud.cell.empty() && next.cell.empty()) return;
+  constexpr std::uint32_t most_scans = 1 << 20; // scan numbers may be any; grids are for those who count them
+  if (shift > most_scans) {
+    cloud.cell.clear();
+    cloud.grids.clear();
+    return;
+  }
+  cloud.cell.resize(cloud.points.size(), no_index);
+  cloud.cell.insert(cloud.cell.end(), next.cell.begin(), next.cell.end());
+  cloud.cell.resize(cloud.points.size() + next.points.size(), no_index);
+  cloud.grids.resize(shift);
+  cloud.grids.insert(cloud.grids.end(), next.grids.begin(), next.grids.end());
 }
 
 } // namespace
@@ -131,7 +149,7 @@ void append_scan(PointCloud& cloud, PointCloud next) {
     cloud = std::move(next);
     return;
   }
-  append_scan_index(cloud, next);
+  append_cells(cloud, next, append_scan_index(cloud, next));
   io::append_rows(cloud, std::move(next));
 }
 

@@ -16,6 +16,7 @@
 #include "io/column_names.h"
 #include "io/coordinate_checks.h"
 #include "io/formats.h"
+#include "io/grid_sensor.h"
 #include "io/offset_file.h"
 #include "io/sensor_columns.h"
 #include "io/sha256.h"
@@ -271,6 +272,10 @@ PointCloud io::read_cloud(const FileContent& original, const ReadOptions& option
   const FileContent& file = text ? decoded : original;
   PointCloud cloud = format_for_reading(file, false).read_cloud(file, options, notes);
   append(notes.warnings, drop_no_data(cloud));
+  if (std::optional<ScanGrids> grids = find_grids(cloud)) {
+    cloud.grids = std::move(grids->sizes);
+    cloud.cell = std::move(grids->cell);
+  }
   append(notes.warnings, doubt_coordinates(cloud.points));
   if (!options.sensors) {
     cloud.sensors.clear();
@@ -279,6 +284,9 @@ PointCloud io::read_cloud(const FileContent& original, const ReadOptions& option
     if (const auto columns = find_sensor_columns(cloud)) {
       set_sensor_rows(cloud, columns->places);
       notes.notes.push_back(columns->names + " read as the sensor's position of each point");
+    } else if (set_sensor_from_grid(cloud)) {
+      notes.notes.emplace_back(
+          "the points lie on rays from the origin through the pixels of their grid: sensor at (0, 0, 0)");
     }
   }
   return cloud;

@@ -13,8 +13,6 @@
 namespace eigencrust {
 namespace {
 
-using Size = ScanGrids::Size;
-
 const Attribute* find(const PointCloud& cloud, std::initializer_list<const char*> names) {
   for (const char* name : names)
     for (const Attribute& attribute : cloud.attributes)
@@ -29,7 +27,7 @@ std::uint32_t place_in(const Attribute& attribute, std::size_t row) {
 }
 
 /// None where it is a single row or column or its cells do not fit 32 bits.
-Size make_size(std::uint64_t columns, std::uint64_t rows) {
+ScanGrid make_size(std::uint64_t columns, std::uint64_t rows) {
   if (columns < 2 || rows < 2 || columns >= no_index || rows >= no_index || columns * rows >= no_index) return {};
   return {static_cast<std::uint32_t>(columns), static_cast<std::uint32_t>(rows)};
 }
@@ -66,7 +64,7 @@ std::optional<ScanGrids> find_grids(const PointCloud& cloud) {
   }
   ScanGrids grids;
   for (const auto& [columns, rows] : reach) grids.sizes.push_back(make_size(columns, rows));
-  if (std::all_of(grids.sizes.begin(), grids.sizes.end(), [](const Size& s) { return s == Size{}; }))
+  if (std::all_of(grids.sizes.begin(), grids.sizes.end(), [](const ScanGrid& s) { return s == ScanGrid{}; }))
     return std::nullopt;
   grids.cell.assign(cloud.points.size(), no_index);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {

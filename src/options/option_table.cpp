@@ -79,11 +79,17 @@ std::string facade_text(const Options& o) {
   return o.detect_facade ? "auto" : "off";
 }
 
-constexpr std::array<OptionEntry, 24> table{{
+constexpr std::array<OptionEntry, 26> table{{
     {"preset", Kind::choice, Group::method, "robust|paper",
      "robust: the measured best; paper: Kolluri, Shewchuk, O'Brien 2004 to the letter",
      [](Options& o, const std::string& text) { o = Options::of(parse_preset(text)); },
      [](const Options& o) { return to_string(o.preset); }},
+    {"method", Kind::choice, Group::method,
+     "eigencrust|powercrust|spectral-powercrust|tight-cocone|robust-cocone|spectral-cocone",
+     "Which surface: eigencrust, or to compare powercrust, spectral-powercrust, tight-cocone, robust-cocone, "
+     "spectral-cocone",
+     [](Options& o, const std::string& text) { o.method = parse_method(text); },
+     [](const Options& o) { return to_string(o.method); }},
     {"noise", Kind::length, Group::method, "L",
      "Standard deviation of the noise: auto (measured at the samples), off, a length, N%",
      [](Options& o, const std::string& text) { o.noise = parse_length_choice("noise", text); },
@@ -131,9 +137,12 @@ constexpr std::array<OptionEntry, 24> table{{
      [](Options& o, const std::string& text) { o.crossing_depth = parse_crossing_depth(text); },
      [](const Options& o) { return o.crossing_depth ? shortest(*o.crossing_depth) : std::string("auto"); }},
     {"facade", Kind::choice, Group::method, "auto|off|+x|-x|+y|-y|+z|-z",
-     "One-sided scan: auto (found from the sensors), off, or outside in front along +x -x +y -y +z or -z: the mesh "
-     "stays open",
+     "One-sided scan: auto (found out: rooms and one side from the sensors, ground from how the samples lie), off, or "
+     "outside in front along +x -x +y -y +z or -z: the mesh stays open",
      set_facade, facade_text},
+    {"base", Kind::flag, Group::method, "", "Close ground or a facade with a flat base behind it: the volume of a pile",
+     [](Options& o, const std::string& text) { o.base = parse_flag(text); },
+     [](const Options& o) { return flag_text(o.base); }},
     {"trim", Kind::flag, Group::method, "",
      "Leave out triangles that the samples do not bear out: the mesh is then open",
      [](Options& o, const std::string& text) { o.trim = parse_flag(text); },

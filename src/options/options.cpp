@@ -17,6 +17,12 @@ template <class Value, std::size_t n>
 using Names = std::array<std::pair<Value, const char*>, n>;
 
 constexpr Names<Preset, 2> presets{{{Preset::robust, "robust"}, {Preset::paper, "paper"}}};
+constexpr Names<Method, 6> methods{{{Method::eigencrust, "eigencrust"},
+                                    {Method::powercrust, "powercrust"},
+                                    {Method::spectral_powercrust, "spectral-powercrust"},
+                                    {Method::tight_cocone, "tight-cocone"},
+                                    {Method::robust_cocone, "robust-cocone"},
+                                    {Method::spectral_cocone, "spectral-cocone"}}};
 constexpr Names<Weights, 2> weights_names{{{Weights::evidence, "evidence"}, {Weights::paper, "paper"}}};
 constexpr Names<Eigensolver, 2> eigensolvers{
     {{Eigensolver::multigrid, "multigrid"}, {Eigensolver::lanczos, "lanczos"}}};
@@ -33,6 +39,9 @@ constexpr Names<Axis, 6> axes{{{Axis::plus_x, "+x"},
                                {Axis::minus_y, "-y"},
                                {Axis::plus_z, "+z"},
                                {Axis::minus_z, "-z"}}};
+
+constexpr Names<SceneKind, 3> scene_kinds{
+    {{SceneKind::body, "body"}, {SceneKind::interior, "interior"}, {SceneKind::facade, "facade"}}};
 
 template <class Value, std::size_t n>
 std::string name_of(const Names<Value, n>& names, Value value) {
@@ -76,6 +85,7 @@ Options Options::of(Preset preset) {
 }
 
 std::string to_string(Preset value) { return name_of(presets, value); }
+std::string to_string(Method value) { return name_of(methods, value); }
 std::string to_string(Weights value) { return name_of(weights_names, value); }
 std::string to_string(Eigensolver value) { return name_of(eigensolvers, value); }
 std::string to_string(SecondStage value) { return name_of(second_stages, value); }
@@ -83,6 +93,7 @@ std::string to_string(Questionable value) { return name_of(questionables, value)
 std::string to_string(GlobalSign value) { return name_of(global_signs, value); }
 std::string to_string(ManifoldRule value) { return name_of(manifold_rules, value); }
 std::string to_string(Smoothing value) { return name_of(smoothings, value); }
+std::string to_string(SceneKind value) { return name_of(scene_kinds, value); }
 std::string to_string(Axis value) { return name_of(axes, value); }
 
 std::string to_string(const LengthChoice& value) {
@@ -114,6 +125,7 @@ std::string to_string(const KeepComponents& value) {
 }
 
 Preset parse_preset(const std::string& text) { return parse(presets, "preset", text); }
+Method parse_method(const std::string& text) { return parse(methods, "method", text); }
 Weights parse_weights(const std::string& text) { return parse(weights_names, "kind of weights", text); }
 Eigensolver parse_eigensolver(const std::string& text) { return parse(eigensolvers, "eigensolver", text); }
 SecondStage parse_second_stage(const std::string& text) { return parse(second_stages, "second stage", text); }
@@ -180,6 +192,10 @@ void check_options(const Options& options) {
   require(options.solver.max_steps >= 1, "the solver may take no step", "allow at least one");
   require(!options.crossing_depth || (*options.crossing_depth >= 0 && std::isfinite(*options.crossing_depth)),
           "the crossing depth is negative", "give a length, 0 or more");
+  require(!options.base || !options.trim, "--base closes what --trim opens", "leave out one of them");
+  const bool by_crust = options.method != Method::eigencrust && options.method != Method::spectral_cocone;
+  require(!by_crust || (!options.facade && !options.point_results),
+          "façades, normals and outliers are found by eigencrust only", "leave out --method");
   require(options.smooth <= 1000, "more than 1000 smoothing steps", "use fewer");
   require(options.threads <= 1024, "more than 1024 threads", "use fewer");
   for (const auto* points : {&options.outside_points, &options.inside_points})

@@ -20,6 +20,7 @@ struct TurnedOver;
 struct UnsupportedTriangles;
 struct LinesOfSight;
 struct Contradictions;
+struct KnownBeforehand;
 struct MinimumLabels;
 struct PointResults;
 
@@ -27,6 +28,7 @@ void describe(const Samples& samples, Run& run);
 void describe(const SampleMeasures& measures, Run& run);
 void describe(const Tetrahedralization& tetrahedralization, Run& run);
 void describe(const Poles& poles, Run& run);
+void describe(const KnownBeforehand& known, Run& run);
 void describe(const LinesOfSight& sight, Run& run);
 void describe(const Partition& partition, Run& run);
 void describe(const PoleLabels& labels, Run& run);

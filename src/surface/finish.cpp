@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include "geometry/exact_difference.h"
+#include "surface/base.h"
 #include "surface/surface.h"
 #include "surface/turned_over.h"
 
@@ -30,9 +33,20 @@ TurnedOver smooth_in_place(Surface& surface, const Tetrahedralization& t, const 
   return take_back_turned(rows, surface.mesh, threads);
 }
 
+/// \param moved are the vertices in input coordinates already?
+Base put_on_base(Surface& surface, const Scene& scene, bool moved, Axis front) {
+  Base base = close_with_base(front, scene.measures.model, surface);
+  const Vec3 axis = direction_of(front);
+  const Vec3 place = base.level * axis + (moved ? Vec3{} : scene.tetrahedralization.origin);
+  base.level = dot(place, axis) * (axis.x + axis.y + axis.z);
+  return base;
+}
+
 /// The surface in input coordinates with the attributes of its points and source_index. Unless the
-/// vertices were moved, and are in input coordinates, they are the input's rows bit for bit.
-TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, const PointCloud& cloud, bool moved) {
+/// vertices were moved, and are in input coordinates, they are the input's rows bit for bit. The last `invented` are no
+/// row's.
+TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, const PointCloud& cloud, bool moved,
+                         std::size_t invented) {
   TriangleMesh mesh;
   mesh.triangles = surface.mesh.triangles;
   std::vector<std::uint32_t> source;
@@ -40,9 +54,15 @@ TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, co
   for (const SampleIndex s : surface.sample_of) source.push_back(t.source[s]);
   mesh.vertices.reserve(source.size());
   for (std::size_t v = 0; v < source.size(); ++v)
-    mesh.vertices.push_back(moved ? surface.mesh.vertices[v] : cloud.points[source[v]]);
+    if (moved)
+      mesh.vertices.push_back(surface.mesh.vertices[v]);
+    else
+      mesh.vertices.push_back(v < source.size() - invented ? cloud.points[source[v]]
+                                                           : surface.mesh.vertices[v] + t.origin);
   for (const Attribute& attribute : cloud.attributes) mesh.vertex_attributes.push_back(gather(attribute, source));
-  mesh.vertex_attributes.push_back(make_attribute("source_index", source));
+  std::vector<std::uint32_t> source_row = source;
+  std::fill(source_row.end() - static_cast<std::ptrdiff_t>(invented), source_row.end(), no_index);
+  mesh.vertex_attributes.push_back(make_attribute("source_index", source_row));
   if (!cloud.scan_index.empty()) {
     std::vector<std::uint32_t> scan;
     scan.reserve(source.size());
@@ -59,8 +79,12 @@ TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene
   const auto& [options, run, threads] = context;
   if (options.smooth > 0)
     run.stage("smoothing", [&] { return smooth_in_place(surface, scene.tetrahedralization, cloud, options, threads); });
-  return run.stage("attributes",
-                   [&] { return finish_mesh(surface, scene.tetrahedralization, cloud, options.smooth > 0); });
+  std::optional<Base>& base = run.report().base;
+  base.reset();
+  if (options.base) base = put_on_base(surface, scene, options.smooth > 0, run.report().surroundings.front);
+  return run.stage("attributes", [&] {
+    return finish_mesh(surface, scene.tetrahedralization, cloud, options.smooth > 0, base ? base->vertices : 0);
+  });
 }
 
 void check(const TriangleMesh& mesh, const PointCloud& cloud, const Scene& scene, const ValidateOptions& checks,
@@ -68,7 +92,7 @@ void check(const TriangleMesh& mesh, const PointCloud& cloud, const Scene& scene
   const auto& [options, run, threads] = context;
   run.stage("validate", [&] {
     // Faces of one Delaunay tetrahedralization do not cross, unless they were moved or rounded (docs/guarantees.md).
-    const bool cannot_cross = checks.self_intersections && options.smooth == 0 &&
+    const bool cannot_cross = checks.self_intersections && options.smooth == 0 && !options.base &&
                               is_exact_translation(scene.tetrahedralization, cloud, threads);
     ValidateOptions needed = checks;
     needed.self_intersections = checks.self_intersections && !cannot_cross;

@@ -158,7 +158,7 @@ TEST_F(IoCoordinates, GridsOfScans) {
   const PointCloud pcd = read_point_cloud(folder_ / "a.pcd");
   const auto of_pcd = find_grids(pcd);
   ASSERT_TRUE(of_pcd.has_value());
-  EXPECT_THAT(of_pcd->sizes, ElementsAre(ScanGrids::Size{3, 2}));
+  EXPECT_THAT(of_pcd->sizes, ElementsAre(ScanGrid{3, 2}));
   EXPECT_THAT(of_pcd->cell, ElementsAre(0, 1, 2, 3, 4, 5));
   // Two columns of three rows: the rows of a column follow one another; one cell is empty.
   const std::string head = "2\n3\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
@@ -166,7 +166,7 @@ TEST_F(IoCoordinates, GridsOfScans) {
   const PointCloud ptx = read_point_cloud(folder_ / "a.ptx");
   const auto of_ptx = find_grids(ptx);
   ASSERT_TRUE(of_ptx.has_value());
-  EXPECT_THAT(of_ptx->sizes, ElementsAre(ScanGrids::Size{2, 3}));
+  EXPECT_THAT(of_ptx->sizes, ElementsAre(ScanGrid{2, 3}));
   EXPECT_THAT(of_ptx->cell, ElementsAre(0, 4, 1, 3, 5));
   // Scans keep apart when they are joined; one without a grid has none.
   PointCloud joined = ptx;
@@ -174,7 +174,7 @@ TEST_F(IoCoordinates, GridsOfScans) {
   append_scan(joined, pcd);
   const auto all = find_grids(joined);
   ASSERT_TRUE(all.has_value());
-  EXPECT_THAT(all->sizes, ElementsAre(ScanGrids::Size{2, 3}, ScanGrids::Size{}, ScanGrids::Size{3, 2}));
+  EXPECT_THAT(all->sizes, ElementsAre(ScanGrid{2, 3}, ScanGrid{}, ScanGrid{3, 2}));
   EXPECT_EQ(all->cell.back(), 5u);
   // Two points in a cell are no grid; nor is one row.
   EXPECT_FALSE(find_grids(read("row column x y z\n0 0 1 2 3\n0 1 1 2 4\n1 0 1 2 5\n1 0 1 2 6\n")));

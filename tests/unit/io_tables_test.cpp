@@ -199,7 +199,7 @@ TEST_F(IoTables, FirstColumnsThatAreNoCoordinates) {
   const PointCloud cloud = read("a.xyz", grid, typed(rows));
   const auto grids = find_grids(cloud);
   ASSERT_TRUE(grids.has_value());
-  EXPECT_THAT(grids->sizes, ElementsAre(ScanGrids::Size{20, 3}));
+  EXPECT_THAT(grids->sizes, ElementsAre(ScanGrid{20, 3}));
   EXPECT_EQ(grids->cell.at(41), 41u);
 
   const std::string matrix = rows_of(30, [](std::size_t i) {
@@ -264,7 +264,7 @@ TEST_F(IoTables, GridsOfEsri) {
                                         Vec3{125, 205, 6}));
   const auto grids = find_grids(cloud);
   ASSERT_TRUE(grids.has_value());
-  EXPECT_THAT(grids->sizes, ElementsAre(ScanGrids::Size{3, 2}));
+  EXPECT_THAT(grids->sizes, ElementsAre(ScanGrid{3, 2}));
   EXPECT_THAT(grids->cell, ElementsAre(0, 1, 2, 3, 5));
   EXPECT_THAT(notes_.notes, ElementsAre("1 cell without data left out", HasSubstr("ESRI grid of 3 x 2")));
   // The middles of the cells, upper case, rows of any length, another extension.

@@ -42,6 +42,7 @@ TEST(OptionTable, WhatIsReadCanBeSet) {
 
 TEST(OptionTable, EveryOptionChangesWhatItIsNamedAfter) {
   const std::vector<std::pair<std::string, std::string>> other{{"preset", "paper"},
+                                                               {"method", "powercrust"},
                                                                {"noise", "0.5%"},
                                                                {"grid-spacing", "0.25"},
                                                                {"questionable", "never"},
@@ -56,6 +57,7 @@ TEST(OptionTable, EveryOptionChangesWhatItIsNamedAfter) {
                                                                {"inside-point", "4,5,6"},
                                                                {"crossing-depth", "0.5"},
                                                                {"facade", "+z"},
+                                                               {"base", "on"},
                                                                {"trim", "on"},
                                                                {"smooth", "3"},
                                                                {"smoothing", "taubin"},

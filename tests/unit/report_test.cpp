@@ -86,7 +86,7 @@ TEST(Report, HoldsWhatItWasGiven) {
 TEST(Report, HoldsEveryEffectiveOption) {
   const json o = json::parse(to_json(sample_report()))["options"];
   EXPECT_THAT(keys(o), testing::UnorderedElementsAre("preset", "eigensolver", "stop_on_stable_signs", "stable_share",
-                                                     "tolerance", "max_steps", "second_stage", "grid_spacing",
+                                                     "tolerance", "max_steps", "method", "second_stage", "grid_spacing",
                                                      "questionable", "global_sign", "noise", "weights", "manifold",
                                                      "manifold_rule", "components", "smooth", "smoothing",
                                                      "outside_points", "inside_points", "facade", "threads",
