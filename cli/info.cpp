@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include <eigencrust/memory_forecast.h>
-#include <eigencrust/stages.h>
 
 #include "command.h"
 #include "picture.h"
@@ -16,48 +15,6 @@
 
 namespace eigencrust::cli {
 namespace {
-
-const char* name_of(ScalarType type) {
-  switch (type) {
-    case ScalarType::int8:
-      return "int8";
-    case ScalarType::uint8:
-      return "uint8";
-    case ScalarType::int16:
-      return "int16";
-    case ScalarType::uint16:
-      return "uint16";
-    case ScalarType::int32:
-      return "int32";
-    case ScalarType::uint32:
-      return "uint32";
-    case ScalarType::float32:
-      return "float32";
-    case ScalarType::float64:
-      return "float64";
-  }
-  return "?";
-}
-
-constexpr std::size_t most_sensors = 1000; ///< listed one by one
-
-void collect_sensors(const PointCloud& cloud, nlohmann::ordered_json& json) {
-  std::vector<std::uint64_t> seen(cloud.sensors.size(), 0);
-  std::uint64_t without = cloud.sensor_of.empty() ? cloud.points.size() : 0;
-  for (const std::uint32_t sensor : cloud.sensor_of)
-    if (sensor == PointCloud::no_sensor)
-      ++without;
-    else
-      ++seen[sensor];
-  json["sensor_count"] = cloud.sensors.size();
-  json["points_without_sensor"] = without;
-  json["sensors"] = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < std::min(most_sensors, cloud.sensors.size()); ++i) {
-    const Sensor& s = cloud.sensors[i];
-    json["sensors"].push_back(
-        {{s.at_infinity ? "direction" : "position", {s.place.x, s.place.y, s.place.z}}, {"points", seen[i]}});
-  }
-}
 
 using Json = nlohmann::ordered_json;
 
@@ -67,44 +24,8 @@ Json json_of(const Box3& b) {
   return {{"min", {b.min.x, b.min.y, b.min.z}}, {"max", {b.max.x, b.max.y, b.max.z}}, {"diagonal", b.diagonal()}};
 }
 
-/// What can be said of points that no surface can be made of.
-void collect_unusable(const std::vector<Vec3>& points, const Error& why, Json& json) {
-  std::vector<Vec3> finite;
-  Box3 box;
-  for (const Vec3& p : points)
-    if (is_finite(p)) {
-      finite.push_back(p);
-      box.add(p);
-    }
-  json["nonfinite"] = points.size() - finite.size();
-  const std::size_t rows = finite.size();
-  std::sort(finite.begin(), finite.end());
-  finite.erase(std::unique(finite.begin(), finite.end()), finite.end());
-  json["distinct"] = finite.size();
-  json["duplicates"] = rows - finite.size();
-  json["bounds"] = rows > 0 ? json_of(box) : Json();
-  json["spacing"] = json["grid_spacing"] = nullptr;
-  json["unusable"] = why.cause() + "; " + why.remedy();
-}
-
-void collect_samples(const PointCloud& cloud, const Threads& threads, Json& json) {
-  try {
-    const Samples samples = prepare_samples(cloud.points, threads);
-    json["distinct"] = samples.positions.size();
-    json["duplicates"] = samples.duplicates;
-    json["nonfinite"] = samples.nonfinite;
-    json["bounds"] = json_of(samples.bounds);
-    json["spacing"] = median_spacing(samples, cloud.points, {}, threads);
-    json["grid_spacing"] = resolve_grid_spacing({}, samples, cloud.points, cloud.scan_index, threads);
-    json["unusable"] = nullptr;
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::input) throw;
-    collect_unusable(cloud.points, error, json);
-  }
-}
-
-nlohmann::ordered_json collect(const PointCloud& cloud, const ReadReport& read, const Threads& threads) {
-  nlohmann::ordered_json json;
+Json collect(const PointCloud& cloud, const ReadReport& read, unsigned threads) {
+  Json json;
   const std::vector<InputFile>& files = read.files;
   for (std::size_t i = 0; i < files.size(); ++i) {
     // Columns are told of all files together; each has its part of them.
@@ -119,28 +40,16 @@ nlohmann::ordered_json collect(const PointCloud& cloud, const ReadReport& read, 
                              {"forecast", json_of(forecast(files[i].points, further))}});
   }
   json["warnings"] = read.together;
-  json["points"] = cloud.points.size();
-  std::uint32_t scans = cloud.points.empty() ? 0 : 1;
-  for (const std::uint32_t scan : cloud.scan_index) scans = std::max(scans, scan + 1);
-  json["scans"] = scans;
-  json["grids"] = nlohmann::ordered_json::array();
+  json["grids"] = Json::array();
   if (const auto grids = find_grids(cloud))
     for (const ScanGrid& size : grids->sizes) json["grids"].push_back({{"columns", size.columns}, {"rows", size.rows}});
-  collect_sensors(cloud, json);
-  json["attributes"] = nlohmann::ordered_json::array();
-  for (const Attribute& a : cloud.attributes)
-    json["attributes"].push_back({{"name", a.name}, {"type", name_of(a.type)}, {"list", a.is_list}});
-  collect_samples(cloud, threads, json);
-  json["forecast"] = json_of(forecast(cloud));
-  json["forecast"]["memory_available_bytes"] = available_memory_bytes();
+  json.update(Json::parse(info_json(cloud, threads)));
   return json;
 }
 
 /// "bounds (0, 0, 0) to (1, 1, 1), diagonal 1.732": with the digits that tell the ends apart.
-std::string show_bounds(const nlohmann::ordered_json& bounds) {
-  const auto vec = [](const nlohmann::ordered_json& v) {
-    return Vec3{v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
-  };
+std::string show_bounds(const Json& bounds) {
+  const auto vec = [](const Json& v) { return Vec3{v[0].get<double>(), v[1].get<double>(), v[2].get<double>()}; };
   const Vec3 low = vec(bounds["min"]), high = vec(bounds["max"]);
   double extent = std::numeric_limits<double>::infinity(); // of the shortest side that is one
   for (const double side : {high.x - low.x, high.y - low.y, high.z - low.z})
@@ -151,14 +60,14 @@ std::string show_bounds(const nlohmann::ordered_json& bounds) {
 }
 
 /// With the digits that tell places far from the origin apart.
-std::string show_place(const nlohmann::ordered_json& v) {
+std::string show_place(const Json& v) {
   std::array<char, 100> text{};
   std::snprintf(text.data(), text.size(), "(%.10g, %.10g, %.10g)", v[0].get<double>(), v[1].get<double>(),
                 v[2].get<double>());
   return text.data();
 }
 
-void print_sensors(const nlohmann::ordered_json& j) {
+void print_sensors(const Json& j) {
   constexpr std::size_t most_printed = 10;
   const auto count = j["sensor_count"].get<std::uint64_t>(), without = j["points_without_sensor"].get<std::uint64_t>();
   if (count == 0) {
@@ -179,7 +88,7 @@ void print_sensors(const nlohmann::ordered_json& j) {
 }
 
 /// Equal grids are told once.
-void print_grids(const nlohmann::ordered_json& grids) {
+void print_grids(const Json& grids) {
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const auto& g = grids[i];
     if (g["rows"] == 0 || (i > 0 && g == grids[i - 1])) continue;
@@ -187,7 +96,7 @@ void print_grids(const nlohmann::ordered_json& grids) {
   }
 }
 
-void print_samples(const nlohmann::ordered_json& j) {
+void print_samples(const Json& j) {
   std::cout << "  distinct " << grouped(j["distinct"].get<std::uint64_t>()) << ", duplicates "
             << grouped(j["duplicates"].get<std::uint64_t>()) << ", not finite "
             << grouped(j["nonfinite"].get<std::uint64_t>()) << ", scans " << j["scans"] << "\n";
@@ -203,14 +112,14 @@ void print_samples(const nlohmann::ordered_json& j) {
 }
 
 /// "620 MB, about 13 s": a forecast has no more than two digits.
-std::string show_forecast(const nlohmann::ordered_json& f) {
+std::string show_forecast(const Json& f) {
   const auto seconds = f["seconds"].get<double>();
   const double unit = seconds > 0 ? std::pow(10, std::floor(std::log10(seconds)) - 1) : 1;
   return describe_bytes(f["memory_bytes"].get<std::uint64_t>()) + ", about " +
          rounded(std::round(seconds / unit) * unit) + " s";
 }
 
-void print_forecast(const nlohmann::ordered_json& j) {
+void print_forecast(const Json& j) {
   const auto available = j["forecast"]["memory_available_bytes"].get<std::uint64_t>();
   std::cout << "  forecast of reconstruct: " << show_forecast(j["forecast"]);
   if (j["points"] > 0)
@@ -220,7 +129,7 @@ void print_forecast(const nlohmann::ordered_json& j) {
   std::cout << "\n";
 }
 
-void print(const nlohmann::ordered_json& j) {
+void print(const Json& j) {
   for (const auto& f : j["files"]) {
     std::cout << printable(f["path"].get<std::string>()) << ": " << grouped(f["points"].get<std::uint64_t>())
               << " points";
@@ -285,10 +194,9 @@ int info_verb(const Arguments& arguments) {
   check_drawing(picture);
   ReadReport read;
   PointCloud cloud = read_inputs(input, read);
-  const Threads team(threads);
-  const nlohmann::ordered_json figures = collect(cloud, read, team);
+  const Json figures = collect(cloud, read, threads);
   if (json)
-    std::cout << figures.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
+    std::cout << figures.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
   else
     print(figures);
   if (!picture.empty()) draw(picture, std::move(cloud));

@@ -10,6 +10,7 @@
 #include <eigencrust/error.h>
 #include <eigencrust/io.h>
 
+#include "evidence/sensor_rows.h"
 #include "io/attributes.h"
 #include "io/colmap.h"
 #include "io/column_names.h"

@@ -2,12 +2,13 @@
 #include <eigencrust/options.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <utility>
 
 #include <eigencrust/error.h>
+
+#include "options/values.h"
 
 namespace eigencrust {
 namespace {
@@ -49,10 +50,6 @@ std::string name_of(const Names<Value, n>& names, Value value) {
   return "?";
 }
 
-[[noreturn]] void reject(const std::string& what, const std::string& text, const std::string& accepted) {
-  throw Error(ErrorKind::usage, "options", "'" + text + "' is no " + what, "use " + accepted);
-}
-
 template <class Value, std::size_t n>
 Value parse(const Names<Value, n>& names, const std::string& what, const std::string& text) {
   std::string accepted;
@@ -60,22 +57,7 @@ Value parse(const Names<Value, n>& names, const std::string& what, const std::st
     if (text == name) return v;
     accepted += (accepted.empty() ? "" : ", ") + std::string(name);
   }
-  reject(what, text, "one of " + accepted);
-}
-
-/// The whole text as a finite number.
-std::optional<double> number(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-std::string shortest(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
+  reject_value(what, text, "one of " + accepted);
 }
 
 } // namespace
@@ -157,8 +139,8 @@ LengthChoice parse_length_choice(const std::string& what, const std::string& tex
   if (text == "auto") return {LengthChoice::Kind::automatic, 0};
   if (text == "off") return {LengthChoice::Kind::off, 0};
   const bool percent = !text.empty() && text.back() == '%';
-  const auto value = number(percent ? std::string_view(text).substr(0, text.size() - 1) : std::string_view(text));
-  if (!value || *value <= 0) reject(what, text, "auto, off, a positive length or N%");
+  const auto value = number_in(percent ? std::string_view(text).substr(0, text.size() - 1) : std::string_view(text));
+  if (!value || *value <= 0) reject_value(what, text, "auto, off, a positive length or N%");
   return {percent ? LengthChoice::Kind::percent : LengthChoice::Kind::length, *value};
 }
 
@@ -166,17 +148,15 @@ KeepComponents parse_components(const std::string& text) {
   if (text == "supported") return {KeepComponents::Kind::supported, 1};
   if (text == "all") return {KeepComponents::Kind::all, 1};
   if (text == "largest") return {KeepComponents::Kind::largest, 1};
-  std::uint32_t count = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error != std::errc{} || end != text.data() + text.size() || count == 0)
-    reject("choice of components", text, "supported, all, largest or a positive number");
-  return {KeepComponents::Kind::count, count};
+  const auto count = count_in(text);
+  if (!count || *count == 0) reject_value("choice of components", text, "supported, all, largest or a positive number");
+  return {KeepComponents::Kind::count, *count};
 }
 
 std::optional<double> parse_crossing_depth(const std::string& text) {
   if (text == "auto") return std::nullopt;
-  const auto value = number(text);
-  if (!value || *value < 0) reject("crossing depth", text, "auto or a length, 0 or more");
+  const auto value = number_in(text);
+  if (!value || *value < 0) reject_value("crossing depth", text, "auto or a length, 0 or more");
   return value;
 }
 
@@ -185,8 +165,9 @@ Vec3 parse_point(const std::string& text) {
   std::size_t begin = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t end = i < 2 ? text.find(',', begin) : text.size();
-    const auto v = end == std::string::npos ? std::nullopt : number(std::string_view(text).substr(begin, end - begin));
-    if (!v) reject("point", text, "three numbers x,y,z");
+    const auto v =
+        end == std::string::npos ? std::nullopt : number_in(std::string_view(text).substr(begin, end - begin));
+    if (!v) reject_value("point", text, "three numbers x,y,z");
     value[i] = *v;
     begin = end + 1;
   }
