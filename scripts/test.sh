@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Builds everything and runs all tests: format, unit, property, hard clouds, command line, Python, installed package, and
+# Builds everything and runs all tests: format, unit, property, hard clouds, command line, installed package, and
 # the unit tests, the hard clouds and random clouds under the address and undefined-behaviour sanitizers; the short form
 # of scripts/faults.sh.
 # Real scans are looked for in $EIGENCRUST_DATA, else in ../shared/data; tests skip without them.
+# The Python package has scripts/test_python.sh.
 # Usage: scripts/test.sh [options for ctest], for example scripts/test.sh -R cli
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/packages.sh"
@@ -12,14 +13,14 @@ started=$SECONDS
 step() { printf '\n== %s (after %d s)\n' "$1" $((SECONDS - started)); }
 
 step "packages"
-install_packages "${build_packages[@]}" "${test_packages[@]}" "${python_packages[@]}" "${python_test_packages[@]}"
+install_packages "${build_packages[@]}" "${test_packages[@]}"
 
 step "sanitizer build"
 configure asan build-asan
 cmake --build "$repository/build-asan" --parallel "$(job_count)" --target unit_tests hard_tests fuzz_method
 
 step "build"
-configure test build-test -DEIGENCRUST_SANITIZED_BUILD="$repository/build-asan" -DEIGENCRUST_BUILD_PYTHON=ON
+configure test build-test -DEIGENCRUST_SANITIZED_BUILD="$repository/build-asan"
 cmake --build "$repository/build-test" --parallel "$(job_count)"
 
 step "tests"
