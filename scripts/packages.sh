@@ -72,6 +72,6 @@ configure() {
     fresh=(--fresh)
   fi
   # Set each time, so that a ccache that was removed is forgotten.
-  (cd "$repository" && cmake --preset "$preset" "${fresh[@]}" --log-level=WARNING \
+  (cd "$repository" && cmake --preset "$preset" -B "$folder" "${fresh[@]}" --log-level=WARNING \
     -DCMAKE_CXX_COMPILER_LAUNCHER="$(command -v ccache || true)" "$@")
 }
