@@ -14,20 +14,6 @@ namespace {
 
 using tools::CounterRandom;
 
-/// Six square views that together see all around.
-std::vector<tools::Sensor> all_around(const Vec3& place, std::uint32_t rays) {
-  std::vector<tools::Sensor> views;
-  for (int axis = 0; axis < 6; ++axis) {
-    tools::Sensor view;
-    view.position = place;
-    view.target = place + direction_of(static_cast<Axis>(axis));
-    view.columns = view.rows = rays;
-    view.field_of_view = 90;
-    views.push_back(view);
-  }
-  return views;
-}
-
 bool holds(const Box3& box, const Vec3& p) {
   return p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y && p.z >= box.min.z &&
          p.z <= box.max.z;
@@ -53,7 +39,7 @@ Scene block_scan(const BlockScan& scan, std::uint64_t seed, unsigned threads) {
   Truth truth = block_part(scan.blocks, cell).truth;
   std::vector<tools::Sensor> views;
   for (const Vec3& place : scan.scanners)
-    for (const tools::Sensor& view : all_around(place, scan.rays)) views.push_back(view);
+    for (const tools::Sensor& view : tools::all_around(place, scan.rays)) views.push_back(view);
   tools::ScanOptions options;
   options.range_noise = scan.noise;
   options.seed = seed;

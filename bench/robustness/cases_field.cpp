@@ -17,15 +17,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Case field_case(std::string name, std::string description, std::function<Scene(Sources&, std::uint64_t)> make) {
-  Case c;
-  c.group = "field";
-  c.name = std::move(name);
-  c.description = std::move(description);
-  c.make = std::move(make);
-  return c;
-}
-
 /// A part with noise in spacings; one piece of that genus.
 Case part_case(std::string name, std::string description, std::function<Part(std::uint64_t)> part, double noise,
                double genus) {
@@ -384,6 +375,15 @@ void add_tiny_cases(std::vector<Case>& cases) {
 }
 
 } // namespace
+
+Case field_case(std::string name, std::string description, std::function<Scene(Sources&, std::uint64_t)> make) {
+  Case c;
+  c.group = "field";
+  c.name = std::move(name);
+  c.description = std::move(description);
+  c.make = std::move(make);
+  return c;
+}
 
 void add_field_cases(std::vector<Case>& cases) {
   add_thin_cases(cases);

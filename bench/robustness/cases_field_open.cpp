@@ -12,15 +12,6 @@
 namespace eigencrust::bench {
 namespace {
 
-Case open_case(std::string name, std::string description, std::function<Scene(Sources&, std::uint64_t)> make) {
-  Case c;
-  c.group = "field";
-  c.name = std::move(name);
-  c.description = std::move(description);
-  c.make = std::move(make);
-  return c;
-}
-
 /// faces_scanner: share of the surface's area that faces some sensor; interior: 1 where that is what was read.
 void measure_facing(const Scene& scene, const Result& result, Sources&, Figures& figures) {
   double facing = 0, all = 0;
@@ -152,7 +143,7 @@ std::vector<GroundRow> ground_rows() {
 }
 
 void add_pile(std::vector<Case>& cases, const char* name, const char* description, double ground, double noise) {
-  Case c = open_case(name, description, [=](Sources& sources, std::uint64_t seed) {
+  Case c = field_case(name, description, [=](Sources& sources, std::uint64_t seed) {
     const HeightScan scan{10, 0.2, noise,
                           [=](double x, double y) { return cone_height(4, 2.6, x + 0.5, y - 1) + ground * x; }};
     return height_scan(scan, seed, sources.threads());
@@ -171,7 +162,7 @@ void add_pile(std::vector<Case>& cases, const char* name, const char* descriptio
 
 void add_open_field_cases(std::vector<Case>& cases) {
   for (const BlockRow& row : block_rows()) {
-    Case c = open_case(row.name, row.description, [scan = row.scan](Sources& sources, std::uint64_t seed) {
+    Case c = field_case(row.name, row.description, [scan = row.scan](Sources& sources, std::uint64_t seed) {
       return block_scan(scan, seed, sources.threads());
     });
     c.requirements = {equals("components", row.components), equals("genus", row.genus),
@@ -182,7 +173,7 @@ void add_open_field_cases(std::vector<Case>& cases) {
     cases.push_back(std::move(c));
   }
   constexpr std::array<Vec3, 2> scanners{{{2.6, 2.2, 1.5}, {0.6, 3.2, 1.5}}};
-  Case c = open_case(
+  Case c = field_case(
       "room-furnished", "a room with pillar and table, two scanners",
       [=](Sources& sources, std::uint64_t seed) { return room(scanners, true, 0.004, seed, sources.threads()); });
   c.requirements = {equals("components", 1), at_least("genus", 1), at_most("volume_error", 0.03),
@@ -190,8 +181,8 @@ void add_open_field_cases(std::vector<Case>& cases) {
   c.measure_more = measure_facing;
   cases.push_back(std::move(c));
   for (const GroundRow& row : ground_rows()) {
-    c = open_case(row.name, row.description,
-                  [make = row.make](Sources& sources, std::uint64_t seed) { return make(seed, sources.threads()); });
+    c = field_case(row.name, row.description,
+                   [make = row.make](Sources& sources, std::uint64_t seed) { return make(seed, sources.threads()); });
     c.requirements = {equals("components", 1),
                       equals("genus", 0),
                       equals("rims", 1),

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "clouds.h"
+#include "sensors.h"
 #include "shapes.h"
 #include "virtual_scanner.h"
 
@@ -21,14 +22,7 @@ PointCloud scan_of(const TriangleMesh& mesh, const std::vector<Vec3>& places, st
                    double noise = 0) {
   std::vector<tools::Sensor> views;
   for (const Vec3& place : places)
-    for (int axis = 0; axis < 6; ++axis) {
-      tools::Sensor view;
-      view.position = place;
-      view.target = place + direction_of(static_cast<Axis>(axis));
-      view.columns = view.rows = rays;
-      view.field_of_view = 90;
-      views.push_back(view);
-    }
+    for (const tools::Sensor& view : tools::all_around(place, rays)) views.push_back(view);
   tools::ScanOptions options;
   options.range_noise = noise;
   options.threads = 2;
