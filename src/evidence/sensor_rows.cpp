@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "evidence/sensor_rows.h"
 
-#include <bit>
+#include <array>
 #include <cstdint>
+#include <functional>
+#include <string_view>
 #include <unordered_map>
 
 namespace eigencrust {
@@ -10,10 +12,8 @@ namespace {
 
 struct PlaceHash {
   std::size_t operator()(const Vec3& p) const {
-    std::uint64_t hash = 0;
-    for (const double c : {p.x, p.y, p.z}) // multiply by the golden ratio, fold the upper bits in
-      hash = (hash ^ std::bit_cast<std::uint64_t>(c == 0 ? 0.0 : c)) * 0x9e3779b97f4a7c15u, hash ^= hash >> 29;
-    return hash;
+    const std::array key{p.x + 0.0, p.y + 0.0, p.z + 0.0}; // -0 is 0
+    return std::hash<std::string_view>()({reinterpret_cast<const char*>(key.data()), sizeof key});
   }
 };
 
