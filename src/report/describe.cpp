@@ -25,13 +25,13 @@ void describe_noise(std::vector<float> grid_spacing, Run& run) {
     run.count("sample_model", name, static_cast<double>(quantile(grid_spacing, share)));
 }
 
-/// Told where noise hides the shape: half of the samples are farther off the surface than from one another.
+/// Where half of the samples are farther off the surface than from one another; in merged range scans they are half as
+/// far.
 void warn_of_noise(const SampleModel& model, Run& run) {
-  constexpr float far_above = 1.5f; // merged range scans have 0.6, their noise doubled 1.2
   std::vector<float> in_spacings(model.noise.size());
   for (std::size_t s = 0; s < in_spacings.size(); ++s)
     in_spacings[s] = model.noise[s] > 0 ? model.noise[s] / model.spacing[s] : 0;
-  if (in_spacings.empty() || !(median(in_spacings) > far_above)) return;
+  if (in_spacings.empty() || !(median(in_spacings) > 1)) return;
   std::vector<float> noise = model.noise;
   char text[32];
   const auto length = [&](double value) { return std::snprintf(text, sizeof text, "%.3g", value), std::string(text); };

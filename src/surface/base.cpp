@@ -26,18 +26,11 @@ constexpr double gap = 1.0 / 500;
 
 /// The vertices of the one rim, each followed by the next along the triangle at the rim.
 std::vector<std::uint32_t> only_rim(const TriangleMesh& mesh) {
-  std::vector<std::uint32_t> next(mesh.vertices.size(), no_index);
-  std::size_t edges = 0;
-  std::uint32_t first = no_index;
-  for_each_edge(sorted_sides(mesh.triangles, mesh.vertices.size(), Threads(1)), [&](std::span<const Side> edge) {
-    if (edge.size() != 1) return;
-    const Side& side = edge[0];
-    const std::uint32_t from = side.forward ? side.low : side.high, to = side.forward ? side.high : side.low;
-    if (first == no_index) first = from;
-    next[from] = to;
-    ++edges;
-  });
+  const std::vector<std::uint32_t> next = along_rims(mesh);
+  const auto edges = next.size() - static_cast<std::size_t>(std::count(next.begin(), next.end(), no_index));
   if (edges == 0) refuse("the surface is closed: there is no rim to stand on a base", "leave out --base");
+  const auto first = static_cast<std::uint32_t>(
+      std::find_if(next.begin(), next.end(), [](std::uint32_t v) { return v != no_index; }) - next.begin());
   std::vector<std::uint32_t> rim;
   for (std::uint32_t v = first; rim.empty() || v != first; v = next[v]) {
     if (v == no_index || rim.size() == edges) break;

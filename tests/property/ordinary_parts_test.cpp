@@ -142,14 +142,14 @@ TEST(OrdinaryParts, NoiseMeasuredIsReported) {
 }
 
 TEST(OrdinaryParts, NoiseFarAboveTheSpacingGetsAWarning) {
-  // In spacings of 0.025: deviations of 3 and of 1.
+  // In spacings of 0.025: deviations of 3 and of 0.7.
   const auto warns = [](double jitter) {
     const Result result = reconstruct(clouds::cloud_of(clouds::jittered(clouds::sphere(20000), jitter, 5)));
     return testing::Value(result.report.warnings,
                           testing::Contains(testing::HasSubstr("noise is larger than the samples are apart")));
   };
   EXPECT_TRUE(warns(0.13));
-  EXPECT_FALSE(warns(0.043));
+  EXPECT_FALSE(warns(0.03));
 }
 
 TEST(OrdinaryParts, PointsThatFillAVolumeGetAWarning) {
