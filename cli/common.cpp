@@ -270,7 +270,8 @@ std::string describe_shape(const MeshSummary& mesh, const std::string& side) {
   if (mesh.degenerate_triangles > 0) out << "  degenerate triangles: " << grouped(mesh.degenerate_triangles) << "\n";
   out << "  self-intersections: "
       << (mesh.self_intersections < 0 ? "not counted"
-                                      : grouped(static_cast<std::uint64_t>(mesh.self_intersections)) + " pairs")
+                                      : (mesh.all_self_intersections ? "" : "at least ") +
+                                            grouped(static_cast<std::uint64_t>(mesh.self_intersections)) + " pairs")
       << "\n";
   return out.str();
 }

@@ -53,8 +53,8 @@ bool is_mutual(const Tetrahedralization& t, TetrahedronIndex i, std::size_t k) {
   const auto& back = t.neighbours[n];
   const auto at = static_cast<std::size_t>(std::find(back.begin(), back.end(), i) - back.begin());
   if (at == 4) return false;
-  std::array<SampleIndex, 4> here = t.tetrahedra[i], there = t.tetrahedra[n];
-  here[k] = there[at] = SampleIndex{};
+  std::array<VertexIndex, 4> here = t.tetrahedra[i], there = t.tetrahedra[n];
+  here[k] = there[at] = VertexIndex{};
   std::sort(here.begin(), here.end());
   std::sort(there.begin(), there.end());
   return here == there;
@@ -86,13 +86,13 @@ Text fault_in_stars(const Tetrahedralization& t, const VertexStars& stars) {
   Text fault = fault_in_rows(stars.begin, t.positions.size(), stars.tetrahedra.size(), "stars");
   if (!fault.empty()) return fault;
   if (stars.tetrahedra.size() != std::size_t{4} * t.tetrahedra.size()) return "the stars are not complete";
-  for (SampleIndex s{0}; s.value < t.positions.size(); ++s.value) {
+  for (VertexIndex s{0}; s.value < t.positions.size(); ++s.value) {
     const auto star = stars[s];
     for (std::size_t k = 0; k < star.size(); ++k) {
       if (star[k].value >= t.tetrahedra.size() || (k > 0 && !(star[k - 1] < star[k])))
-        return numbered("out of order: the star of sample", s.value);
+        return numbered("out of order: the star of vertex", s.value);
       const auto& v = t.tetrahedra[star[k]];
-      if (std::find(v.begin(), v.end(), s) == v.end()) return numbered("a stranger in the star of sample", s.value);
+      if (std::find(v.begin(), v.end(), s) == v.end()) return numbered("a stranger in the star of vertex", s.value);
     }
   }
   return {};
@@ -114,10 +114,10 @@ Text fault_in_measures(const SampleMeasures& measures, std::size_t samples) {
   if (model.spacing.size() != samples || model.noise.size() != samples || model.isolated.size() != samples ||
       (!measures.grid.empty() && measures.grid.size() != samples))
     return "not each sample is measured";
-  for (std::size_t s = 0; s < samples; ++s)
+  for (SampleIndex s{0}; s.value < samples; ++s.value)
     if (!(model.spacing[s] > 0) || !(model.noise[s] >= 0) || !(model.isolated[s] >= 0) ||
         !std::isfinite(model.noise[s]) || !std::isfinite(model.spacing[s]))
-      return numbered("no length: what was measured at sample", s);
+      return numbered("no length: what was measured at sample", s.value);
   return {};
 }
 

@@ -133,7 +133,7 @@ inline Prepared prepare(const Points& points, unsigned threads = 1) {
 
 inline Vec3 centroid(const Tetrahedralization& t, TetrahedronIndex i) {
   Vec3 sum;
-  for (const SampleIndex s : t.tetrahedra[i]) sum = sum + 0.25 * t.positions[s];
+  for (const VertexIndex s : t.tetrahedra[i]) sum = sum + 0.25 * t.positions[s];
   return sum;
 }
 

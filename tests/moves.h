@@ -26,9 +26,9 @@ struct MoveStage {
     energy.faces = FaceWeights(p.t, threads);
     energy.data = labels.values();
     energy.known = p.known;
-    model.spacing.assign(p.t.sample_count, static_cast<float>(spacing));
-    model.noise.assign(p.t.sample_count, 0.0f);
-    model.isolated.assign(p.t.sample_count, 0.0f);
+    model.spacing = SampleLengths(p.t.sample_count, static_cast<float>(spacing));
+    model.noise = SampleLengths(p.t.sample_count, 0.0f);
+    model.isolated = SampleLengths(p.t.sample_count, 0.0f);
     model.typical_spacing = spacing;
   }
   [[nodiscard]] Moves moves() { return {{p.t, p.stars, energy, model, threads}, labels}; }

@@ -49,7 +49,7 @@ VertexStars vertex_stars(const Tetrahedralization& tetrahedralization, const Thr
 /// exceeds the spacing no single cell sees both sides (Alliez et al. 2007; not in the paper).
 /// With Weights::evidence "the other side" of a cell that leaves the cloud is that of the mean direction in which it
 /// does (Amenta and Bern 1999): at a sharp corner it leaves in several.
-Poles find_poles(const Tetrahedralization& tetrahedralization, const VertexStars& stars, std::span<const float> reach,
+Poles find_poles(const Tetrahedralization& tetrahedralization, const VertexStars& stars, SampleLengthsView reach,
                  Weights weights, const Threads& threads);
 
 /// §3.1: what is known beforehand. Tetrahedra at the cube are outside (with a façade: those at its front;
@@ -71,8 +71,8 @@ struct SightLine {
 /// \param depth a length per sample
 /// \param left_out samples where it is > 0 have none (may be empty)
 std::vector<SightLine> sight_lines(const PointCloud& cloud, std::span<const SampleIndex> sample_of_row,
-                                   const Tetrahedralization& tetrahedralization, std::span<const float> depth,
-                                   std::span<const float> left_out);
+                                   const Tetrahedralization& tetrahedralization, SampleLengthsView depth,
+                                   SampleLengthsView left_out);
 
 /// The tetrahedra that each line crosses, in their order along it (compressed rows).
 struct SightCrossings {
@@ -93,7 +93,7 @@ SightCrossings sight_crossings(const Tetrahedralization& tetrahedralization, con
 /// With Weights::paper more than one line makes a tetrahedron outside and nothing makes it inside.
 struct SightRule {
   Weights weights = Weights::evidence;
-  std::span<const float> isolated =
+  SampleLengthsView isolated =
       {}; ///< of each sample, see samples/sample_model.h; tetrahedra at those are not made inside
 };
 /// §3.1: `known`, and outside for the tetrahedra without a label that enough lines cross, more than there are
@@ -115,7 +115,7 @@ SightLabels line_of_sight(const Tetrahedralization& tetrahedralization, const Ve
 /// §3.3: tetrahedra whose longest edge is < 4 × the mean grid spacing at their samples, none with a cube
 /// corner. \param grid_spacing a length per sample; empty: none is questionable
 std::vector<std::uint8_t> questionable_tetrahedra(const Tetrahedralization& tetrahedralization,
-                                                  std::span<const float> grid_spacing, const Threads& threads);
+                                                  SampleLengthsView grid_spacing, const Threads& threads);
 
 /// §3.1: the signed graph on the poles with the outside supernode (0) and, when something is known to be
 /// inside, the inside supernode (1). Poles of tetrahedra in `left_out` (may be empty) are no nodes. The pole
@@ -124,7 +124,7 @@ std::vector<std::uint8_t> questionable_tetrahedra(const Tetrahedralization& tetr
 /// (cos φ < -0.93) and that is not its opposite pole; the node's edges are the sums of theirs (not in the paper, where
 /// an edge of weight e^8 joins them; docs/decisions/0025).
 PoleGraph pole_graph(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
-                     const Labels& known, std::span<const std::uint8_t> left_out, std::span<const float> isolated,
+                     const Labels& known, std::span<const std::uint8_t> left_out, SampleLengthsView isolated,
                      bool contract, const Threads& threads);
 
 /// Called now and then with the fraction done; may throw to cancel.

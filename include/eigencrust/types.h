@@ -4,8 +4,10 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <compare>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -71,13 +73,24 @@ struct Index {
 
   [[nodiscard]] constexpr bool valid() const { return value != none; }
   friend constexpr auto operator<=>(Index, Index) = default;
+  /// A sample is a vertex, too.
+  template <class Wider>
+  requires std::same_as<typename Tag::is_also, Wider>
+  constexpr operator Index<Wider>() const { // NOLINT: nothing is lost
+    return {value};
+  }
 };
-using SampleIndex = Index<struct SampleTag>;           ///< a distinct sample, or a cube corner
+struct VertexTag {};
+struct SampleTag {
+  using is_also = VertexTag;
+};
+using VertexIndex = Index<VertexTag>; ///< a vertex of the tetrahedra: a distinct sample, or a cube corner
+using SampleIndex = Index<SampleTag>; ///< a distinct sample; see Tetrahedralization::sample
 using TetrahedronIndex = Index<struct TetrahedronTag>; ///< a Delaunay tetrahedron
 using PoleIndex = Index<struct PoleTag>;               ///< a pole: a tetrahedron that some sample chose
 using NodeIndex = Index<struct NodeTag>;               ///< a row of a SignedGraph
 
-/// A std::vector that is read with one kind of index only.
+/// A std::vector that is read with one kind of index only. Without NDEBUG it looks whether the index is one of its own.
 template <class I, class T>
 class IndexedArray {
  public:
@@ -85,8 +98,14 @@ class IndexedArray {
   explicit IndexedArray(std::size_t n, const T& value = T{}) : values_(n, value) {}
   explicit IndexedArray(std::vector<T> values) : values_(std::move(values)) {}
 
-  T& operator[](I i) { return values_[i.value]; }
-  const T& operator[](I i) const { return values_[i.value]; }
+  T& operator[](I i) {
+    assert(i.value < values_.size());
+    return values_[i.value];
+  }
+  const T& operator[](I i) const {
+    assert(i.value < values_.size());
+    return values_[i.value];
+  }
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(values_.size()); }
   [[nodiscard]] bool empty() const { return values_.empty(); }
   auto begin() const { return values_.begin(); }
@@ -97,6 +116,30 @@ class IndexedArray {
  private:
   std::vector<T> values_;
 };
+
+/// An IndexedArray that belongs to somebody else, to read; it may be empty.
+template <class I, class T>
+class IndexedView {
+ public:
+  IndexedView() = default;
+  IndexedView(const IndexedArray<I, T>& array) : values_(array.raw()) {} // NOLINT: as a span is made of a vector
+
+  const T& operator[](I i) const {
+    assert(i.value < values_.size());
+    return values_[i.value];
+  }
+  [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(values_.size()); }
+  [[nodiscard]] bool empty() const { return values_.empty(); }
+  auto begin() const { return values_.begin(); }
+  auto end() const { return values_.end(); }
+
+ private:
+  std::span<const T> values_;
+};
+
+/// A length at each sample, in the unit of the input coordinates. Corners of the cube have none.
+using SampleLengths = IndexedArray<SampleIndex, float>;
+using SampleLengthsView = IndexedView<SampleIndex, float>;
 
 /// Type of an attribute's values as the file declared it.
 enum class ScalarType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
@@ -196,29 +239,35 @@ struct TriangleMesh {
 struct Tetrahedralization {
   Vec3 origin;
   std::uint32_t sample_count = 0;                  ///< without the eight corners
-  IndexedArray<SampleIndex, Vec3> positions;       ///< sample_count + 8
+  IndexedArray<VertexIndex, Vec3> positions;       ///< sample_count + 8
   IndexedArray<SampleIndex, std::uint32_t> source; ///< smallest input row of each sample; sample_count
   /// Vertices of each tetrahedron, smallest first, second smallest next, positively oriented: vertex 3
   /// sees (0,1,2) counter-clockwise, dot(cross(b-a, c-a), d-a) > 0.
-  IndexedArray<TetrahedronIndex, std::array<SampleIndex, 4>> tetrahedra;
+  IndexedArray<TetrahedronIndex, std::array<VertexIndex, 4>> tetrahedra;
   /// Neighbour k shares the face opposite vertex k; invalid beyond the cube.
   IndexedArray<TetrahedronIndex, std::array<TetrahedronIndex, 4>> neighbours;
 
-  [[nodiscard]] bool is_corner(SampleIndex s) const { return s.value >= sample_count; }
+  [[nodiscard]] bool is_corner(VertexIndex v) const { return v.value >= sample_count; }
+  /// A vertex that is no corner: only samples have a spacing, noise, poles or an input row.
+  [[nodiscard]] SampleIndex sample(VertexIndex v) const {
+    assert(!is_corner(v));
+    return {v.value};
+  }
   [[nodiscard]] bool touches_cube(TetrahedronIndex t) const {
-    for (const SampleIndex s : tetrahedra[t])
-      if (is_corner(s)) return true;
+    for (const VertexIndex v : tetrahedra[t])
+      if (is_corner(v)) return true;
     return false;
   }
 };
 
-/// For each sample the tetrahedra around it, in increasing order (compressed rows).
+/// For each vertex the tetrahedra around it, in increasing order (compressed rows).
 struct VertexStars {
   std::vector<std::uint64_t> begin;         ///< positions.size() + 1
   std::vector<TetrahedronIndex> tetrahedra; ///< 4 × number of tetrahedra
 
-  [[nodiscard]] std::span<const TetrahedronIndex> operator[](SampleIndex s) const {
-    return {tetrahedra.data() + begin[s.value], tetrahedra.data() + begin[s.value + 1]};
+  [[nodiscard]] std::span<const TetrahedronIndex> operator[](VertexIndex v) const {
+    assert(v.value + std::size_t{1} < begin.size());
+    return {tetrahedra.data() + begin[v.value], tetrahedra.data() + begin[v.value + 1]};
   }
 };
 

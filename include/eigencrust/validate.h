@@ -41,6 +41,9 @@ struct MeshSummary {
   /// Pairs of triangles that intersect in more than a shared vertex or edge (shared: of equal
   /// coordinates), degenerate ones left out; -1 if not computed.
   std::int64_t self_intersections = -1;
+  /// false: there are at least so many. Triangles whose boxes overlap those of more than 256 others are looked at until
+  /// there were a hundred million such pairs.
+  bool all_self_intersections = true;
   std::uint64_t components = 0;
   std::int64_t euler = 0, genus = 0; ///< genus: sum over the components, -1 if one is not orientable
   double volume = 0;                 ///< signed, by the divergence theorem from the box's centre; positive = outward

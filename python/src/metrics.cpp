@@ -41,6 +41,8 @@ void bind_summary(py::module_& module) {
           "self_intersections",
           [](const S& s) { return s.self_intersections < 0 ? py::object(py::none()) : py::int_(s.self_intersections); },
           "Pairs of triangles that intersect; None: not counted")
+      .def_readonly("all_self_intersections", &S::all_self_intersections,
+                    "False: there are at least as many as self_intersections says.")
       .def_readonly("components", &S::components)
       .def_readonly("euler", &S::euler)
       .def_readonly("genus", &S::genus, "Sum over the components; -1 if one is not orientable.")

@@ -126,7 +126,7 @@ void bind_beginning(py::module_& m) {
       [](const Tets& t, const VertexStars& stars, const py::object& reach, const std::string& weights,
          unsigned threads) {
         check(stars, t);
-        const std::vector<float> lengths = to_floats(reach, "reach", t.sample_count);
+        const SampleLengths lengths(to_floats(reach, "reach", t.sample_count));
         const Weights kind = parse_weights(weights);
         const py::gil_scoped_release unlocked;
         return find_poles(t, stars, lengths, kind, Threads(threads));
@@ -165,8 +165,8 @@ void bind_lines_of_sight(py::module_& m) {
         const std::shared_ptr<PointCloud> cloud = to_cloud(points);
         require(samples.of_row.size() == cloud->points.size(), "samples", "cloud");
         require(samples.positions.size() == t.sample_count, "samples", "tetrahedralization");
-        const std::vector<float> depths = to_floats(depth, "depth", t.sample_count),
-                                 without = to_floats(left_out, "left_out", t.sample_count);
+        const SampleLengths depths(to_floats(depth, "depth", t.sample_count)),
+            without(to_floats(left_out, "left_out", t.sample_count));
         if (depths.empty()) throw Error(ErrorKind::input, "depth", "it is None", "give a length per sample");
         return SightLines{sight_lines(*cloud, samples.of_row, t, depths, without)};
       },
@@ -193,7 +193,7 @@ void bind_lines_of_sight(py::module_& m) {
         check(lines, t);
         check(crossings, lines, t);
         const Labels labels = to_labels(known, "known", t);
-        const std::vector<float> lonely = to_floats(isolated, "isolated", t.sample_count);
+        const SampleLengths lonely(to_floats(isolated, "isolated", t.sample_count));
         const SightRule rule{parse_weights(weights), lonely};
         const py::gil_scoped_release unlocked;
         return line_of_sight(t, stars, lines.lines, crossings, rule, labels, Threads(threads));
@@ -207,7 +207,7 @@ void bind_pole_graph(py::module_& m) {
   m.def(
       "questionable_tetrahedra",
       [](const Tets& t, const py::object& grid_spacing, unsigned threads) {
-        const std::vector<float> lengths = to_floats(grid_spacing, "grid_spacing", t.sample_count);
+        const SampleLengths lengths(to_floats(grid_spacing, "grid_spacing", t.sample_count));
         std::vector<std::uint8_t> flags;
         {
           const py::gil_scoped_release unlocked;
@@ -225,7 +225,7 @@ void bind_pole_graph(py::module_& m) {
         check(poles, t);
         const Labels labels = to_labels(known, "known", t);
         const std::vector<std::uint8_t> without = to_bytes(left_out, "left_out", t.tetrahedra.size(), 1, true);
-        const std::vector<float> lonely = to_floats(isolated, "isolated", t.sample_count);
+        const SampleLengths lonely(to_floats(isolated, "isolated", t.sample_count));
         const py::gil_scoped_release unlocked;
         return std::make_shared<PoleGraph>(
             pole_graph(t, stars, poles, labels, without, lonely, contract, Threads(threads)));

@@ -60,7 +60,7 @@ class CoconeBuilder {
         const TetrahedronIndex n = t_.neighbours[i][k];
         // Each edge once; the faces at the cube's sides have no second tetrahedron.
         if (v[k] == s || !n.valid() || n < i) continue;
-        std::array<SampleIndex, 2> others;
+        std::array<VertexIndex, 2> others;
         std::size_t count = 0;
         for (const std::size_t c : face_opposite[k])
           if (v[c] != s) others[count++] = v[c];
@@ -70,13 +70,13 @@ class CoconeBuilder {
   }
 
   void find_normals() {
-    result_.normal.resize(t_.sample_count);
+    result_.normal = IndexedArray<SampleIndex, Vec3>(t_.sample_count);
     for_each_index(threads_, t_.sample_count, [&](std::size_t at) {
       const SampleIndex s{static_cast<std::uint32_t>(at)};
       const PoleIndex pole = scene_.poles.of_sample[s].first;
       if (!pole.valid()) return;
       const Vec3 u = scene_.poles.sphere[pole].centre - t_.positions[s];
-      result_.normal[at] = (1 / norm(u)) * u;
+      result_.normal[s] = (1 / norm(u)) * u;
     });
   }
 
@@ -84,7 +84,7 @@ class CoconeBuilder {
   bool is_long(SampleIndex s) const {
     const auto [first, second] = scene_.poles.of_sample[s];
     if (!second.valid()) return false;
-    const Vec3& n = result_.normal[s.value];
+    const Vec3& n = result_.normal[s];
     double width = 0;
     for_each_cell_edge(s, [&](const Vec3& a, const Vec3& b, const auto&) {
       const double an = dot(a, n), bn = dot(b, n);
@@ -98,16 +98,16 @@ class CoconeBuilder {
 
   /// Samples whose cells touch that of s within its cocone; may name some twice.
   void cocone_neighbours(SampleIndex s, std::vector<std::uint32_t>& neighbours) const {
-    const Vec3& n = result_.normal[s.value];
-    for_each_cell_edge(s, [&](const Vec3& a, const Vec3& b, const std::array<SampleIndex, 2>& others) {
+    const Vec3& n = result_.normal[s];
+    for_each_cell_edge(s, [&](const Vec3& a, const Vec3& b, const std::array<VertexIndex, 2>& others) {
       if (!meets_cocone(a, b, n)) return;
-      for (const SampleIndex q : others)
+      for (const VertexIndex q : others)
         if (!t_.is_corner(q)) neighbours.push_back(q.value);
     });
   }
 
   bool agree(std::uint32_t a, std::uint32_t b) const {
-    return std::abs(dot(result_.normal[a], result_.normal[b])) >= least_cosine;
+    return std::abs(dot(result_.normal[SampleIndex{a}], result_.normal[SampleIndex{b}])) >= least_cosine;
   }
 
   /// Flat are long cells all of whose neighbours' normals agree, and long cells that agree with a flat neighbour.
@@ -120,18 +120,18 @@ class CoconeBuilder {
         if (long_cell[s]) cocone_neighbours(SampleIndex{static_cast<std::uint32_t>(s)}, row);
       };
     });
-    result_.flat.assign(t_.sample_count, 0);
+    result_.flat = IndexedArray<SampleIndex, std::uint8_t>(t_.sample_count, 0);
     std::vector<std::uint32_t> queue;
     for (std::uint32_t s = 0; s < t_.sample_count; ++s)
       if (long_cell[s] &&
           std::all_of(neighbours[s].begin(), neighbours[s].end(), [&](std::uint32_t q) { return agree(s, q); })) {
-        result_.flat[s] = 1;
+        result_.flat[SampleIndex{s}] = 1;
         queue.push_back(s);
       }
     for (std::size_t k = 0; k < queue.size(); ++k)
       for (const std::uint32_t q : neighbours[queue[k]]) {
-        if (result_.flat[q] || !long_cell[q] || !agree(queue[k], q)) continue;
-        result_.flat[q] = 1;
+        if (result_.flat[SampleIndex{q}] || !long_cell[q] || !agree(queue[k], q)) continue;
+        result_.flat[SampleIndex{q}] = 1;
         queue.push_back(q);
       }
   }
@@ -141,12 +141,13 @@ class CoconeBuilder {
     if (!n.valid()) return false;
     bool some = false;
     for (const std::size_t c : face_opposite[k]) {
-      const SampleIndex s = t_.tetrahedra[i][c];
-      if (t_.is_corner(s)) return false;
-      if (!result_.flat[s.value]) continue;
+      const VertexIndex v = t_.tetrahedra[i][c];
+      if (t_.is_corner(v)) return false;
+      const SampleIndex s = t_.sample(v);
+      if (!result_.flat[s]) continue;
       some = true;
       const Vec3& p = t_.positions[s];
-      if (!meets_cocone(centre_[i] - p, centre_[n] - p, result_.normal[s.value])) return false;
+      if (!meets_cocone(centre_[i] - p, centre_[n] - p, result_.normal[s])) return false;
     }
     return some;
   }

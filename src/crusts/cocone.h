@@ -12,8 +12,8 @@
 namespace eigencrust {
 
 struct Cocone {
-  std::vector<Vec3> normal;       ///< of each sample: unit vector to the first pole; 0 where there is none
-  std::vector<std::uint8_t> flat; ///< of each sample
+  IndexedArray<SampleIndex, Vec3> normal; ///< unit vector to the first pole; 0 where there is none
+  IndexedArray<SampleIndex, std::uint8_t> flat;
   /// Which faces of a tetrahedron are in the cocone: the one opposite corner k, if all its flat samples see it so and
   /// one of them is.
   IndexedArray<TetrahedronIndex, std::array<bool, 4>> face;

@@ -43,8 +43,7 @@ PointCloud outer_boundary(const PointCloud& cloud, const Context& context) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   PointCloud boundary = cloud;
   for (std::size_t row = 0; row < boundary.points.size(); ++row)
-    if (const SampleIndex s = scene.sample_of_row[row]; s.valid() && !kept[s.value])
-      boundary.points[row] = {nan, nan, nan};
+    if (const SampleIndex s = scene.sample_of_row[row]; s.valid() && !kept[s]) boundary.points[row] = {nan, nan, nan};
   return boundary;
 }
 

@@ -22,20 +22,20 @@ class OuterBalls {
  public:
   OuterBalls(const Scene& scene, const Threads& threads)
       : t_(scene.tetrahedralization), ball_(t_.tetrahedra.size()), big_(t_.tetrahedra.size()) {
-    const std::vector<float> reach = mean_distances(threads);
+    const SampleLengths reach = mean_distances(threads);
     for_each_index(threads, t_.tetrahedra.size(), [&](std::size_t at) {
       const TetrahedronIndex i{static_cast<std::uint32_t>(at)};
       const auto& v = t_.tetrahedra[i];
       const Vec3& p = t_.positions[v[0]];
       const Vec3 centre = circumcentre(p, t_.positions[v[1]], t_.positions[v[2]], t_.positions[v[3]]);
       ball_[i] = {centre, distance(centre, p)};
-      big_[i] = std::any_of(v.begin(), v.end(), [&](SampleIndex s) {
-        return t_.is_corner(s) || ball_[i].radius > big * static_cast<double>(reach[s.value]);
+      big_[i] = std::any_of(v.begin(), v.end(), [&](VertexIndex s) {
+        return t_.is_corner(s) || ball_[i].radius > big * static_cast<double>(reach[t_.sample(s)]);
       });
     });
   }
 
-  std::vector<std::uint8_t> samples() {
+  IndexedArray<SampleIndex, std::uint8_t> samples() {
     std::vector<std::uint8_t> outer(t_.tetrahedra.size(), 0);
     std::vector<TetrahedronIndex> stack;
     for (TetrahedronIndex i{0}; i.value < t_.tetrahedra.size(); ++i.value)
@@ -52,11 +52,11 @@ class OuterBalls {
         stack.push_back(n);
       }
     }
-    std::vector<std::uint8_t> kept(t_.sample_count, 0);
+    IndexedArray<SampleIndex, std::uint8_t> kept(t_.sample_count, 0);
     for (TetrahedronIndex i{0}; i.value < t_.tetrahedra.size(); ++i.value)
       if (outer[i.value])
-        for (const SampleIndex s : t_.tetrahedra[i])
-          if (!t_.is_corner(s)) kept[s.value] = 1;
+        for (const VertexIndex s : t_.tetrahedra[i])
+          if (!t_.is_corner(s)) kept[t_.sample(s)] = 1;
     return kept;
   }
 
@@ -67,17 +67,17 @@ class OuterBalls {
   }
 
   /// Of each sample to its nearest ones.
-  [[nodiscard]] std::vector<float> mean_distances(const Threads& threads) const {
+  [[nodiscard]] SampleLengths mean_distances(const Threads& threads) const {
     const std::span<const Vec3> samples(t_.positions.raw().data(), t_.sample_count);
     const PointTree tree(samples);
-    std::vector<float> mean(samples.size());
+    SampleLengths mean(samples.size());
     for_each_index(threads, samples.size(), [&](std::size_t s) {
       std::array<std::uint32_t, nearest_samples + 1> index{};
       std::array<double, nearest_samples + 1> squared{};
       const std::size_t found = tree.nearest(samples[s], index.size(), index.data(), squared.data());
       double sum = 0;
       for (std::size_t k = 1; k < found; ++k) sum += std::sqrt(squared[k]); // the first is the sample itself
-      mean[s] = static_cast<float>(sum / static_cast<double>(found - 1));
+      mean.raw()[s] = static_cast<float>(sum / static_cast<double>(found - 1));
     });
     return mean;
   }
@@ -89,7 +89,7 @@ class OuterBalls {
 
 } // namespace
 
-std::vector<std::uint8_t> outer_samples(const Scene& scene, const Threads& threads) {
+IndexedArray<SampleIndex, std::uint8_t> outer_samples(const Scene& scene, const Threads& threads) {
   return OuterBalls(scene, threads).samples();
 }
 

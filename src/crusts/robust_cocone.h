@@ -9,6 +9,6 @@ namespace eigencrust {
 
 /// 1 for each sample on a ball that is big beside the distances of its samples and hangs together with the outside
 /// through balls that intersect deeply.
-std::vector<std::uint8_t> outer_samples(const Scene& scene, const Threads& threads);
+IndexedArray<SampleIndex, std::uint8_t> outer_samples(const Scene& scene, const Threads& threads);
 
 } // namespace eigencrust

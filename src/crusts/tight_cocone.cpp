@@ -23,7 +23,8 @@ class Peeling {
         peeled_(t_.tetrahedra.size(), Label::inside) {
     for_blocks(threads, t_.sample_count, costly_block, [&](std::size_t begin, std::size_t end, std::size_t) {
       Umbrellas own(scene, cocone);
-      for (std::size_t s = begin; s < end; ++s) good_[s] = own.is_good(SampleIndex{static_cast<std::uint32_t>(s)});
+      for (std::size_t s = begin; s < end; ++s)
+        good_.raw()[s] = own.is_good(SampleIndex{static_cast<std::uint32_t>(s)});
     });
   }
 
@@ -34,7 +35,7 @@ class Peeling {
       if (t_.touches_cube(i)) peel(i);
     peel_on();
     // Good samples that nothing came to lie inside, or their patch hangs loose in there: they hold nothing up.
-    for (std::uint32_t s = 0; s < t_.sample_count; ++s) good_[s] = good_[s] && oriented_[s];
+    for (SampleIndex s{0}; s.value < t_.sample_count; ++s.value) good_[s] = good_[s] && oriented_[s];
     for (TetrahedronIndex i{0}; i.value < t_.tetrahedra.size(); ++i.value)
       if (peeled_[i] == Label::outside) stack_.push_back(i);
     peel_on();
@@ -46,15 +47,15 @@ class Peeling {
     bool outside = false, inside = false;
   };
 
-  [[nodiscard]] bool is_good(SampleIndex s) const { return !t_.is_corner(s) && good_[s.value]; }
+  [[nodiscard]] bool is_good(VertexIndex v) const { return !t_.is_corner(v) && good_[t_.sample(v)]; }
 
   /// The good samples of a tetrahedron that is outside, and from them along umbrellas all others.
   void orient_at(TetrahedronIndex outside) {
-    for (const SampleIndex s : t_.tetrahedra[outside])
-      if (is_good(s)) samples_.emplace_back(s, outside);
+    for (const VertexIndex v : t_.tetrahedra[outside])
+      if (is_good(v)) samples_.emplace_back(t_.sample(v), outside);
     // The first in first, so that a sample is mostly reached from several sides before it is its turn.
     for (; !samples_.empty(); samples_.pop_front())
-      if (const auto [s, i] = samples_.front(); !oriented_[s.value]) orient(s, i);
+      if (const auto [s, i] = samples_.front(); !oriented_[s]) orient(s, i);
   }
 
   /// The side of the umbrella of s on which a tetrahedron lies is outside, the other inside; unless most of what other
@@ -63,7 +64,7 @@ class Peeling {
     auto [out, in] = umbrellas_.sides_of(s, outside);
     if (out.tetrahedra.empty()) return;
     if (votes_for_outside(out) < votes_for_outside(in)) std::swap(out, in);
-    oriented_[s.value] = 1;
+    oriented_[s] = 1;
     for (const TetrahedronIndex i : in.tetrahedra) marked_[i].inside = true;
     for (const TetrahedronIndex i : out.tetrahedra) {
       marked_[i].outside = true;
@@ -71,7 +72,7 @@ class Peeling {
         if (beside.valid() && peeled_[beside] == Label::outside) stack_.push_back(beside); // it may be open now
     }
     for (const auto& [q, behind] : out.rim)
-      if (is_good(q) && !oriented_[q.value]) samples_.emplace_back(q, behind);
+      if (is_good(q) && !oriented_[t_.sample(q)]) samples_.emplace_back(t_.sample(q), behind);
   }
 
   [[nodiscard]] std::int64_t votes_for_outside(const Umbrellas::Part& part) const {
@@ -103,7 +104,7 @@ class Peeling {
   [[nodiscard]] bool opens(TetrahedronIndex from, TetrahedronIndex to) const {
     if (marked_[to].inside || marked_[to].outside) return !marked_[to].inside;
     const auto& v = t_.tetrahedra[to];
-    if (std::any_of(v.begin(), v.end(), [&](SampleIndex s) { return is_good(s); })) return false;
+    if (std::any_of(v.begin(), v.end(), [&](VertexIndex s) { return is_good(s); })) return false;
     return t_.neighbours[to][smallest_face(to)] != from;
   }
 
@@ -128,8 +129,8 @@ class Peeling {
   const Scene& scene_;
   const Tetrahedralization& t_;
   Umbrellas umbrellas_;
-  std::vector<std::uint8_t> good_;
-  std::vector<std::uint8_t> oriented_; ///< good samples whose outer side is known
+  IndexedArray<SampleIndex, std::uint8_t> good_;
+  IndexedArray<SampleIndex, std::uint8_t> oriented_; ///< good samples whose outer side is known
   IndexedArray<TetrahedronIndex, Mark> marked_;
   Labels peeled_; ///< outside: reached from the cube
   std::deque<std::pair<SampleIndex, TetrahedronIndex>> samples_;

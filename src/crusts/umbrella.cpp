@@ -54,7 +54,7 @@ std::vector<Umbrellas::Side> Umbrellas::rim() const {
       if (n != no_index && in_part_[n]) continue;
       const auto& v = t_.tetrahedra[star_[i]];
       const auto opposite = static_cast<std::size_t>(std::find(v.begin(), v.end(), star_.others(i)[k]) - v.begin());
-      std::array<SampleIndex, 3> face{};
+      std::array<VertexIndex, 3> face{};
       for (std::size_t c = 0; c < 3; ++c) face[c] = v[face_opposite[opposite][c]];
       std::rotate(face.begin(), std::find(face.begin(), face.end(), sample_), face.end());
       rim.push_back({face[1], face[2], star_[i]});
@@ -64,7 +64,7 @@ std::vector<Umbrellas::Side> Umbrellas::rim() const {
 }
 
 /// One closed chain without a sharp fold?
-bool Umbrellas::is_disc(SampleIndex s) const {
+bool Umbrellas::is_disc(VertexIndex s) const {
   const std::vector<Side> sides = rim();
   if (sides.size() < 3) return false;
   const auto normal = [&](const Side& side) {
@@ -89,7 +89,7 @@ bool Umbrellas::is_disc(SampleIndex s) const {
 
 bool Umbrellas::is_good(SampleIndex s) {
   const auto [first, second] = scene_.poles.of_sample[s];
-  if (!cocone_.flat[s.value] || !second.valid()) return false;
+  if (!cocone_.flat[s] || !second.valid()) return false;
   star_.fill(s);
   sample_ = s;
   const std::uint32_t up = place_of(scene_.poles.tetrahedron[first]), down = place_of(scene_.poles.tetrahedron[second]);

@@ -22,7 +22,7 @@ class Umbrellas {
 
   struct Part {
     std::vector<TetrahedronIndex> tetrahedra;
-    std::vector<std::pair<SampleIndex, TetrahedronIndex>>
+    std::vector<std::pair<VertexIndex, TetrahedronIndex>>
         rim; ///< of the faces that bound it, each with its tetrahedron
   };
   /// What lies on the side of the umbrella of s where a tetrahedron of its star is, and on the other; both empty where
@@ -31,7 +31,7 @@ class Umbrellas {
 
  private:
   struct Side { ///< of a face at the sample, seen from inside a part
-    SampleIndex from, to;
+    VertexIndex from, to;
     TetrahedronIndex behind; ///< in the part
   };
   void flood(std::uint32_t start);
@@ -39,13 +39,13 @@ class Umbrellas {
   [[nodiscard]] std::uint32_t place_of(TetrahedronIndex i) const;
   [[nodiscard]] std::vector<Side> rim() const;
   [[nodiscard]] Part part() const;
-  [[nodiscard]] bool is_disc(SampleIndex s) const;
+  [[nodiscard]] bool is_disc(VertexIndex s) const;
 
   const Tetrahedralization& t_;
   const Scene& scene_;
   const Cocone& cocone_;
   Star star_;
-  SampleIndex sample_;
+  VertexIndex sample_;
   std::vector<std::uint8_t> in_part_; ///< by place in the star
   std::vector<std::uint32_t> stack_;
 };

@@ -18,13 +18,12 @@ Labels named_labels(const Scene& scene, const Surroundings& surroundings, const 
 }
 
 /// How far in front of each sample a tetrahedron must begin to count as crossed.
-std::vector<float> crossing_depths(const SampleModel& model, const Options& options) {
-  if (options.crossing_depth)
-    return std::vector<float>(model.spacing.size(), static_cast<float>(*options.crossing_depth));
+SampleLengths crossing_depths(const SampleModel& model, const Options& options) {
+  if (options.crossing_depth) return SampleLengths(model.spacing.size(), static_cast<float>(*options.crossing_depth));
   // Nearer than that the line runs within what the sample itself is uncertain by.
-  std::vector<float> depth(model.spacing.size());
-  for (std::size_t i = 0; i < depth.size(); ++i)
-    depth[i] = std::max(model.spacing[i] / 2, noise_bound * model.noise[i]);
+  SampleLengths depth(model.spacing.size());
+  for (SampleIndex s{0}; s.value < depth.size(); ++s.value)
+    depth[s] = std::max(model.spacing[s] / 2, noise_bound * model.noise[s]);
   return depth;
 }
 

@@ -28,7 +28,7 @@ std::vector<TetrahedronIndex> tetrahedra_at(const Tetrahedralization& t, const V
     return orientation(pa, pb, pc, p) >= 0 && orientation(pa, pc, pd, p) >= 0 && orientation(pa, pd, pb, p) >= 0 &&
            orientation(pb, pd, pc, p) >= 0;
   };
-  const SampleIndex start{0};
+  const VertexIndex start{0};
   TetrahedronIndex last = stars[start].front(); // where p is the sample's own place
   for (SegmentWalk walk(t, stars, start, p); walk.next();) last = walk.tetrahedron();
   std::vector<TetrahedronIndex> found;
@@ -46,7 +46,7 @@ std::vector<TetrahedronIndex> tetrahedra_at(const Tetrahedralization& t, const V
 Label label_at_cube(const Tetrahedralization& t, TetrahedronIndex tetrahedron, const Surroundings& surroundings) {
   const Vec3 front = direction_of(surroundings.front);
   bool corner = false, at_front = false;
-  for (const SampleIndex s : t.tetrahedra[tetrahedron]) {
+  for (const VertexIndex s : t.tetrahedra[tetrahedron]) {
     if (!t.is_corner(s)) continue;
     corner = true;
     at_front = at_front || dot(front, t.positions[s]) > 0;

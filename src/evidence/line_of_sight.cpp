@@ -45,7 +45,7 @@ class Ray {
   /// other scans put a little higher; there they are close to samples.
   [[nodiscard]] bool is_clear(const SegmentWalk& walk) const {
     const Vec3 middle = at((walk.depth() + walk.exit_depth()) / 2);
-    for (const SampleIndex s : t_.tetrahedra[walk.tetrahedron()])
+    for (const VertexIndex s : t_.tetrahedra[walk.tetrahedron()])
       if (squared_norm(t_.positions[s] - middle) <= depth_ * depth_) return false;
     return true;
   }
@@ -95,16 +95,15 @@ Box3 wide_box(const Tetrahedralization& t) {
 } // namespace
 
 std::vector<SightLine> sight_lines(const PointCloud& cloud, std::span<const SampleIndex> sample_of,
-                                   const Tetrahedralization& t, std::span<const float> depth,
-                                   std::span<const float> left_out) {
+                                   const Tetrahedralization& t, SampleLengthsView depth, SampleLengthsView left_out) {
   std::vector<SightLine> lines;
   if (cloud.sensor_of.empty()) return lines;
   const Box3 box = wide_box(t);
   for (std::size_t row = 0; row < sample_of.size(); ++row) {
     const SampleIndex s = sample_of[row];
     const std::uint32_t sensor = cloud.sensor_of[row];
-    if (!s.valid() || sensor == PointCloud::no_sensor || (!left_out.empty() && left_out[s.value] > 0)) continue;
-    lines.push_back({s, depth[s.value], target_of(cloud.sensors[sensor], t.origin, box, t.positions[s])});
+    if (!s.valid() || sensor == PointCloud::no_sensor || (!left_out.empty() && left_out[s] > 0)) continue;
+    lines.push_back({s, depth[s], target_of(cloud.sensors[sensor], t.origin, box, t.positions[s])});
   }
   // In the order of the samples neighbouring lines go through the same tetrahedra.
   const auto key = [](const SightLine& l) { return std::pair(l.sample, l.target); };
@@ -183,8 +182,8 @@ SightLabels line_of_sight(const Tetrahedralization& t, const VertexStars& stars,
   const std::uint32_t least_lines = rule.weights == Weights::paper ? 2 : 1; // "more than once"
   // Behind a thin part a tetrahedron may reach out to an outlier.
   const auto holds_isolated = [&](TetrahedronIndex at) {
-    return !rule.isolated.empty() && std::any_of(t.tetrahedra[at].begin(), t.tetrahedra[at].end(), [&](SampleIndex s) {
-      return !t.is_corner(s) && rule.isolated[s.value] > 0;
+    return !rule.isolated.empty() && std::any_of(t.tetrahedra[at].begin(), t.tetrahedra[at].end(), [&](VertexIndex v) {
+      return !t.is_corner(v) && rule.isolated[t.sample(v)] > 0;
     });
   };
   for_each_index(threads, known.size(), [&](std::size_t i) {

@@ -85,8 +85,8 @@ class Columns {
 double unexplained_height(const SampleModel& model, SampleIndex s, double across) {
   // Two noisy samples differ by more than that once in fifty times; the rest is for what is flat only nearly.
   constexpr double noise_of_two = noise_bound * std::numbers::sqrt2, unevenness = 0.3, steepest = 2;
-  return steepest * across + unevenness * static_cast<double>(model.spacing[s.value]) +
-         noise_of_two * static_cast<double>(model.noise[s.value]);
+  return steepest * across + unevenness * static_cast<double>(model.spacing[s]) +
+         noise_of_two * static_cast<double>(model.noise[s]);
 }
 
 double share_stacked(const Scene& scene, int axis, const Threads& threads) {
@@ -102,7 +102,7 @@ double share_stacked(const Scene& scene, int axis, const Threads& threads) {
     columns.for_each_near(p, [&](std::uint32_t k) {
       const SampleIndex s = some[k];
       const double aside = across(axis, p, t.positions[s]), height = std::fabs(along(axis, p - t.positions[s]));
-      if (aside <= std::min(static_cast<double>(model.spacing[s.value]), widest) &&
+      if (aside <= std::min(static_cast<double>(model.spacing[s]), widest) &&
           height > unexplained_height(model, s, aside))
         stacked[k].store(true, std::memory_order_relaxed);
     });
@@ -128,7 +128,7 @@ double cap_of(const Scene& scene, int axis, const Threads& threads) {
   const std::vector<SampleIndex> some = some_samples(t);
   std::vector<std::array<double, 2>> space(some.size());
   const auto measure = [&](std::size_t k) {
-    const auto spacing = static_cast<double>(scene.measures.model.spacing[some[k].value]);
+    const auto spacing = static_cast<double>(scene.measures.model.spacing[some[k]]);
     space[k] = {spacing * spacing * depth_of_hull(scene, some[k], -1.0 * up, far),
                 spacing * spacing * depth_of_hull(scene, some[k], up, far)};
   };
@@ -138,7 +138,7 @@ double cap_of(const Scene& scene, int axis, const Threads& threads) {
   for (std::size_t k = 0; k < some.size(); ++k) {
     behind += space[k][0];
     before += space[k][1];
-    const auto spacing = static_cast<double>(scene.measures.model.spacing[some[k].value]);
+    const auto spacing = static_cast<double>(scene.measures.model.spacing[some[k]]);
     shallow += unevenness * spacing * spacing * spacing;
   }
   // Flat as far as can be told: a plane has no side behind it.
@@ -149,9 +149,9 @@ double cap_of(const Scene& scene, int axis, const Threads& threads) {
 template <class Meet>
 void for_each_hull_triangle(const Tetrahedralization& t, Meet&& meet) {
   for (TetrahedronIndex i{0}; i.value < t.tetrahedra.size(); ++i.value) {
-    std::array<SampleIndex, 4> corner = t.tetrahedra[i];
-    std::stable_partition(corner.begin(), corner.end(), [&](SampleIndex s) { return !t.is_corner(s); });
-    if (!t.is_corner(corner[2]) && t.is_corner(corner[3])) meet({corner[0], corner[1], corner[2]}, corner[3]);
+    std::array<VertexIndex, 4> v = t.tetrahedra[i];
+    std::stable_partition(v.begin(), v.end(), [&](VertexIndex a) { return !t.is_corner(a); });
+    if (!t.is_corner(v[2]) && t.is_corner(v[3])) meet({t.sample(v[0]), t.sample(v[1]), t.sample(v[2])}, v[3]);
   }
 }
 
@@ -161,12 +161,11 @@ double share_on_hull(const Scene& scene, int axis) {
   const Tetrahedralization& t = scene.tetrahedralization;
   const Vec3 up = direction_of(static_cast<Axis>(2 * axis));
   std::array<double, 2> short_ones{}, all{};
-  for_each_hull_triangle(t, [&](const std::array<SampleIndex, 3>& corner, SampleIndex beyond) {
+  for_each_hull_triangle(t, [&](const std::array<SampleIndex, 3>& corner, VertexIndex beyond) {
     double longest = 0, spacing = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       longest = std::max(longest, norm(t.positions[corner[(k + 1) % 3]] - t.positions[corner[k]]));
-      spacing +=
-          static_cast<double>(scene.measures.model.spacing[corner[k].value]) / static_cast<double>(corner.size());
+      spacing += static_cast<double>(scene.measures.model.spacing[corner[k]]) / static_cast<double>(corner.size());
     }
     const Vec3& p = t.positions[corner[0]];
     const Vec3 n = cross(t.positions[corner[1]] - p, t.positions[corner[2]] - p);
@@ -178,12 +177,12 @@ double share_on_hull(const Scene& scene, int axis) {
 }
 
 /// The part of the hull's area that each sample on it stands for; 0 for all others.
-std::vector<double> hull_area(const Tetrahedralization& t) {
-  std::vector<double> area(t.sample_count, 0);
-  for_each_hull_triangle(t, [&](const std::array<SampleIndex, 3>& corner, SampleIndex) {
+IndexedArray<SampleIndex, double> hull_area(const Tetrahedralization& t) {
+  IndexedArray<SampleIndex, double> area(t.sample_count, 0);
+  for_each_hull_triangle(t, [&](const std::array<SampleIndex, 3>& corner, VertexIndex) {
     const Vec3& p = t.positions[corner[0]];
     const double whole = norm(cross(t.positions[corner[1]] - p, t.positions[corner[2]] - p)) / 2;
-    for (const SampleIndex s : corner) area[s.value] += whole / static_cast<double>(corner.size());
+    for (const SampleIndex s : corner) area[s] += whole / static_cast<double>(corner.size());
   });
   return area;
 }
@@ -229,12 +228,12 @@ AxisReading read_axis(const Scene& scene, int axis, const Threads& threads) {
 
 HullSight hull_sight(const Tetrahedralization& t, const VertexStars& stars, std::span<const SightLine> lines,
                      const Threads& threads) {
-  const std::vector<double> area = hull_area(t);
+  const IndexedArray<SampleIndex, double> area = hull_area(t);
   std::vector<std::uint8_t> stays(lines.size(), 0);
   for_each_index(
       threads, lines.size(),
       [&](std::size_t i) {
-        if (area[lines[i].sample.value] == 0) return;
+        if (area[lines[i].sample] == 0) return;
         SegmentWalk walk(t, stars, lines[i].sample, lines[i].target);
         bool within = true;
         while (within && walk.next()) within = !t.touches_cube(walk.tetrahedron());
@@ -245,7 +244,7 @@ HullSight hull_sight(const Tetrahedralization& t, const VertexStars& stars, std:
   for (std::size_t begin = 0, end = 0; begin < lines.size(); begin = end) {
     double within = 0;
     for (; end < lines.size() && lines[end].sample == lines[begin].sample; ++end) within += stays[end];
-    const double whole = area[lines[begin].sample.value], share = within / static_cast<double>(end - begin);
+    const double whole = area[lines[begin].sample], share = within / static_cast<double>(end - begin);
     sight.within += share * whole;
     sight.without += (1 - share) * whole;
   }
@@ -259,7 +258,7 @@ Surroundings surroundings_of(const PointCloud& cloud, const Scene& scene, const 
   if (!options.detect_facade || options.weights == Weights::paper) return {};
   if (cloud.sensor_of.empty()) return reading_of_samples(scene, threads);
   const Tetrahedralization& t = scene.tetrahedralization;
-  const auto lines = sight_lines(cloud, scene.sample_of_row, t, std::vector<float>(t.sample_count, 0), {});
+  const auto lines = sight_lines(cloud, scene.sample_of_row, t, SampleLengths(t.sample_count, 0), {});
   const HullSight sight = hull_sight(t, scene.stars, lines, threads);
   return Surroundings{sight.within > sight.without ? SceneKind::interior : SceneKind::body};
 }

@@ -33,9 +33,9 @@ class BoxTree {
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
 
   /// visit(item) for every item whose box, as given to the constructor, may overlap `box` (touching
-  /// counts): the items of all leaves that do.
+  /// counts): the items of all leaves that do. It ends early where visit says false. \return did it not?
   template <class Visit>
-  void overlapping_leaves(const Box3& box, Visit&& visit) const {
+  bool overlapping_leaves(const Box3& box, Visit&& visit) const {
     std::array<std::uint32_t, max_depth> stack;
     std::size_t top = 0;
     stack[top++] = 0;
@@ -48,8 +48,10 @@ class BoxTree {
         stack[top++] = i + 1;
         continue;
       }
-      for (std::uint32_t k = 0; k < node.count; ++k) visit(order_[node.first + k]);
+      for (std::uint32_t k = 0; k < node.count; ++k)
+        if (!visit(order_[node.first + k])) return false;
     }
+    return true;
   }
 
   static bool overlap(const Box3& a, const Box3& b) {

@@ -59,6 +59,120 @@ int shared_first(Triangle& f, Triangle& g) {
   return shared;
 }
 
+std::vector<Box3> boxes_of(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
+  std::vector<Box3> boxes(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (const std::uint32_t v : triangles[t]) boxes[t].add(vertices[v]);
+  return boxes;
+}
+
+/// Of each triangle with those of greater number. At first each looks at a few; then those that have more go on, in
+/// rounds of a fixed size, until the limit of all is reached: which they are does not depend on threads.
+class CrossingCounter {
+ public:
+  /// \param triangles none degenerate, at least one; outlive this
+  CrossingCounter(std::span<const Vec3> vertices, std::span<const Triangle> triangles, const CrossingLimits& limits)
+      : vertices_(vertices),
+        triangles_(triangles),
+        limits_(limits),
+        boxes_(boxes_of(vertices, triangles)),
+        tree_(boxes_) {}
+
+  Crossings count(const Threads& threads) const {
+    constexpr std::size_t block = 2048;
+    std::vector<Few> few((triangles_.size() + block - 1) / block);
+    for_blocks(threads, triangles_.size(), block,
+               [&](std::size_t begin, std::size_t end, std::size_t b) { few[b] = look_at_few(begin, end); });
+    Crossings sum;
+    std::vector<Wide> wide;
+    for (const Few& one : few) {
+      add(one.done, sum);
+      wide.insert(wide.end(), one.wide.begin(), one.wide.end());
+    }
+    std::uint64_t more = 0;
+    for (std::size_t begin = 0, end = 0; begin < wide.size(); begin = end) {
+      end = std::min(wide.size(), begin + round);
+      const bool go_on = more < limits_.in_all;
+      if (go_on)
+        threads.run(end - begin, [&](std::size_t k) {
+          Wide& one = wide[begin + k];
+          one.so_far = look(one.triangle, limits_.in_all);
+        });
+      for (std::size_t k = begin; k < end; ++k) {
+        if (go_on) more += wide[k].so_far.looked;
+        add(wide[k].so_far, sum);
+      }
+    }
+    return sum;
+  }
+
+ private:
+  // So many triangles go on before it is asked again whether it was enough: at most so many times all triangles more.
+  static constexpr std::size_t round = 64;
+
+  struct Wide { ///< a triangle with more pairs than are always looked at
+    std::uint32_t triangle;
+    Crossings so_far;
+  };
+  struct Few {
+    Crossings done;
+    std::vector<Wide> wide;
+  };
+
+  static void add(const Crossings& one, Crossings& sum) {
+    sum.pairs += one.pairs;
+    sum.looked += one.looked;
+    sum.all = sum.all && one.all;
+  }
+
+  /// In the order of the leaves, so that one query after the other walks through the same nodes.
+  Few look_at_few(std::size_t begin, std::size_t end) const {
+    Few few;
+    for (std::size_t place = begin; place < end; ++place) {
+      const std::uint32_t t = tree_.order()[place];
+      const Crossings one = look(t, limits_.always);
+      if (one.all)
+        add(one, few.done);
+      else
+        few.wide.push_back({t, one});
+    }
+    return few;
+  }
+
+  Crossings look(std::uint32_t t, std::uint64_t most) const {
+    Crossings found;
+    found.all = tree_.overlapping_leaves(boxes_[t], [&](std::uint32_t other) {
+      if (found.looked == most) return false;
+      ++found.looked;
+      found.pairs += other > t && BoxTree::overlap(boxes_[other], boxes_[t]) && meet(triangles_[t], triangles_[other]);
+      return true;
+    });
+    return found;
+  }
+
+  [[nodiscard]] Corners corners(const Triangle& t) const {
+    return {to_cgal(vertices_[t[0]]), to_cgal(vertices_[t[1]]), to_cgal(vertices_[t[2]])};
+  }
+  [[nodiscard]] bool meet(Triangle f, Triangle g) const {
+    switch (shared_first(f, g)) {
+      case 0:
+        return meet_anywhere(corners(f), corners(g));
+      case 1:
+        return meet_beyond_vertex(corners(f), corners(g));
+      case 2:
+        return meet_beyond_edge(corners(f), corners(g));
+      default:
+        return true; // one triangle twice
+    }
+  }
+
+  std::span<const Vec3> vertices_;
+  std::span<const Triangle> triangles_;
+  CrossingLimits limits_;
+  std::vector<Box3> boxes_;
+  BoxTree tree_;
+};
+
 } // namespace
 
 std::vector<std::uint8_t> find_degenerate_triangles(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
@@ -71,44 +185,14 @@ std::vector<std::uint8_t> find_degenerate_triangles(std::span<const Vec3> vertic
   return degenerate;
 }
 
-std::uint64_t count_self_intersections(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
-                                       std::span<const std::uint8_t> degenerate, const Threads& threads) {
+Crossings count_self_intersections(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                                   std::span<const std::uint8_t> degenerate, const Threads& threads,
+                                   const CrossingLimits& limits) {
   std::vector<Triangle> sound;
   sound.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
     if (degenerate[t] == 0) sound.push_back(triangles[t]);
-  if (sound.empty()) return 0;
-  std::vector<Box3> boxes(sound.size());
-  for (std::size_t t = 0; t < sound.size(); ++t)
-    for (const std::uint32_t v : sound[t]) boxes[t].add(vertices[v]);
-  const BoxTree tree(boxes);
-  const auto corners = [&](const Triangle& t) {
-    return Corners{to_cgal(vertices[t[0]]), to_cgal(vertices[t[1]]), to_cgal(vertices[t[2]])};
-  };
-  const auto intersect = [&](Triangle f, Triangle g) {
-    switch (shared_first(f, g)) {
-      case 0:
-        return meet_anywhere(corners(f), corners(g));
-      case 1:
-        return meet_beyond_vertex(corners(f), corners(g));
-      case 2:
-        return meet_beyond_edge(corners(f), corners(g));
-      default:
-        return true; // one triangle twice
-    }
-  };
-  // In the order of the leaves, so that one query after the other walks through the same nodes.
-  const auto part = [&](std::size_t begin, std::size_t end) {
-    std::uint64_t pairs = 0;
-    for (std::size_t place = begin; place < end; ++place) {
-      const std::uint32_t t = tree.order()[place];
-      tree.overlapping_leaves(boxes[t], [&](std::uint32_t other) {
-        if (other > t && BoxTree::overlap(boxes[other], boxes[t]) && intersect(sound[t], sound[other])) ++pairs;
-      });
-    }
-    return pairs;
-  };
-  return sum_blocks<std::uint64_t>(threads, sound.size(), part, 2048);
+  return sound.empty() ? Crossings{} : CrossingCounter(vertices, sound, limits).count(threads);
 }
 
 } // namespace eigencrust

@@ -129,11 +129,11 @@ OutputFiles::~OutputFiles() = default;
 void OutputFiles::add(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   if (!path.has_filename()) fail(path, "the name of a file is missing", 0, "name the file to be written");
   struct stat status {};
-  const bool exists = stat(path.c_str(), &status) == 0;
+  const bool exists = io::find_status(path, status);
   if (!exists && errno == ELOOP) fail(path, "cannot write the file", errno, "name a file instead of this link");
   if (exists) {
     if (S_ISDIR(status.st_mode)) fail(path, "this is a folder", 0, "name a file to be written");
-    if (access(path.c_str(), W_OK) != 0) fail(path, "the file is write-protected", errno, "write to another file");
+    if (io::is_write_protected(path)) fail(path, "the file is write-protected", errno, "write to another file");
     if (is_special(path, status)) return write_through(path, write);
   }
   impl_->files.push_back(std::make_unique<io::TemporaryFile>(follow_links(path), exists ? &status : nullptr));
@@ -142,7 +142,7 @@ void OutputFiles::add(const fs::path& path, const std::function<void(std::ostrea
 
 void OutputFiles::add_offset(const fs::path& path, const Vec3& offset, std::vector<std::string>& warnings) {
   struct stat status {};
-  const bool special = stat(path.c_str(), &status) == 0 && is_special(path, status);
+  const bool special = io::find_status(path, status) && is_special(path, status);
   if (special && offset != Vec3{})
     warnings.push_back("no file can be beside " + path.string() + " to say so: add " + io::three_numbers(offset) +
                        " to its coordinates to return to those of the input");

@@ -35,7 +35,8 @@ FileContent::FileContent(const std::filesystem::path& path) : name_(path.string(
   const Descriptor file(uninterrupted([&] { return open(path.c_str(), O_RDONLY | O_CLOEXEC); }));
   if (file.value < 0) fail("cannot open the file: " + system_message(errno), "check the name and the permissions");
   struct stat status {};
-  if (fstat(file.value, &status) != 0) fail("cannot read the file: " + system_message(errno), "check the disk");
+  if (uninterrupted([&] { return fstat(file.value, &status); }) != 0)
+    fail("cannot read the file: " + system_message(errno), "check the disk");
   if (S_ISDIR(status.st_mode)) fail("this is a folder, not a file", "name a file");
 
   // One byte more than the size tells the end of a regular file with a single read.

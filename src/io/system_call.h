@@ -4,6 +4,8 @@
 #pragma once
 
 #include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <filesystem>
@@ -39,6 +41,14 @@ auto when_ready(int descriptor, short events, Call&& call) {
     pollfd waiting{descriptor, events, 0};
     if (uninterrupted([&] { return poll(&waiting, 1, -1); }) < 0) return result;
   }
+}
+
+/// What a path leads to. \return as errno says otherwise: is it there?
+inline bool find_status(const std::filesystem::path& path, struct stat& status) {
+  return uninterrupted([&] { return stat(path.c_str(), &status); }) == 0;
+}
+inline bool is_write_protected(const std::filesystem::path& path) {
+  return uninterrupted([&] { return access(path.c_str(), W_OK); }) != 0;
 }
 
 } // namespace eigencrust::io

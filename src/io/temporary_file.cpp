@@ -76,10 +76,11 @@ void remove_stale(const fs::path& folder) {
 void keep_owner_and_mode(int file, const struct stat& replaced) {
   mode_t mode = replaced.st_mode & 0777;
   struct stat own {};
-  if (fstat(file, &own) == 0 && (own.st_uid != replaced.st_uid || own.st_gid != replaced.st_gid) &&
+  if (uninterrupted([&] { return fstat(file, &own); }) == 0 &&
+      (own.st_uid != replaced.st_uid || own.st_gid != replaced.st_gid) &&
       fchown(file, replaced.st_uid, replaced.st_gid) != 0 && fchown(file, static_cast<uid_t>(-1), replaced.st_gid) != 0)
-    mode &= ~static_cast<mode_t>(070);    // what its group was allowed is not for another group
-  if (fchmod(file, mode) != 0) errno = 0; // file systems without permissions
+    mode &= ~static_cast<mode_t>(070); // what its group was allowed is not for another group
+  if (uninterrupted([&] { return fchmod(file, mode); }) != 0) errno = 0; // file systems without permissions
 }
 
 } // namespace
@@ -107,9 +108,9 @@ bool TemporaryFile::create(mode_t mode) {
 
 /// Another run may have taken the file for a stale one before it was locked.
 bool TemporaryFile::lock() const {
-  if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
+  if (uninterrupted([&] { return flock(descriptor_, LOCK_EX | LOCK_NB); }) != 0 && errno == EWOULDBLOCK) return false;
   struct stat status {};
-  return fstat(descriptor_, &status) != 0 || status.st_nlink > 0;
+  return uninterrupted([&] { return fstat(descriptor_, &status); }) != 0 || status.st_nlink > 0;
 }
 
 TemporaryFile::TemporaryFile(fs::path target, const struct stat* replaced)
@@ -128,7 +129,7 @@ TemporaryFile::~TemporaryFile() {
 }
 
 void TemporaryFile::put_in_place() {
-  if (rename(path_.c_str(), target_.c_str()) != 0)
+  if (uninterrupted([&] { return rename(path_.c_str(), target_.c_str()); }) != 0)
     fail(target_, "cannot put the finished file in its place", errno, "check the permissions of the folder");
   in_place_ = true;
   // So that the rename survives a power failure; where that is not possible, nothing is lost before one.

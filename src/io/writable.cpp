@@ -22,11 +22,12 @@ using io::fail;
 
 /// A file without a name, or with one for a moment where the file system knows no others.
 int open_probe(const fs::path& folder) {
-  int descriptor = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  int descriptor = io::uninterrupted([&] { return open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600); });
   if (descriptor >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != ENOENT && errno != EINVAL))
     return descriptor;
   std::string name = (folder / ".eigencrust.XXXXXX").string();
-  descriptor = mkstemp(name.data());
+  const std::string pattern = name;
+  descriptor = io::uninterrupted([&] { return mkstemp((name = pattern).data()); });
   if (descriptor >= 0) unlink(name.c_str());
   return descriptor;
 }
@@ -52,9 +53,9 @@ void probe_folder(const fs::path& path, const fs::path& folder) {
 void require_writable(const std::filesystem::path& path) {
   if (!path.has_filename()) fail(path, "the name of a file is missing", 0, "name the file to be written");
   struct stat status {};
-  if (stat(path.c_str(), &status) == 0) {
+  if (io::find_status(path, status)) {
     if (S_ISDIR(status.st_mode)) fail(path, "this is a folder", 0, "name a file to be written");
-    if (access(path.c_str(), W_OK) != 0) fail(path, "the file is write-protected", errno, "write to another file");
+    if (io::is_write_protected(path)) fail(path, "the file is write-protected", errno, "write to another file");
     if (!S_ISREG(status.st_mode)) return; // devices and pipes are written through
   }
   const fs::path target = follow_links(path);

@@ -252,8 +252,9 @@ MeshSummary validate(const TriangleMesh& mesh, const ValidateOptions& options) {
   if (options.self_intersections) {
     // Where vertices were left apart, equal ones still count as shared: touching there is no crossing.
     const std::vector<Triangle> joined = options.merge_equal_vertices ? merged.all : merged_triangles(mesh, true).all;
-    summary.self_intersections =
-        static_cast<std::int64_t>(count_self_intersections(mesh.vertices, joined, degenerate, threads));
+    const Crossings crossings = count_self_intersections(mesh.vertices, joined, degenerate, threads);
+    summary.self_intersections = static_cast<std::int64_t>(crossings.pairs);
+    summary.all_self_intersections = crossings.all;
   }
   return summary;
 }

@@ -16,6 +16,8 @@
 
 #include <eigencrust/error.h>
 
+#include "parallel/hand_over.h"
+
 namespace eigencrust {
 namespace {
 
@@ -38,9 +40,39 @@ class FirstError {
   std::size_t block_ = std::numeric_limits<std::size_t>::max();
 };
 
-} // namespace
+/// The blocks of one run. The library promises that each begins after the run did and ends before it does; two blocks
+/// have no order.
+class Blocks {
+ public:
+  Blocks(void (*call)(void*, std::size_t), void* function) : call_(call), function_(function) { begun_.give(); }
 
-namespace {
+  void take(std::size_t block) {
+    begun_.take();
+    try {
+      call_(function_, block);
+    } catch (...) {
+      error_.take(block); // the other blocks go on: which of several exceptions is seen must not depend on time
+    }
+    ended_.give();
+  }
+  /// All have ended.
+  void finish() {
+    ended_.take();
+    error_.rethrow();
+  }
+
+ private:
+  void (*call_)(void*, std::size_t);
+  void* function_;
+  HandOver begun_, ended_;
+  FirstError error_;
+};
+
+/// What the library calls.
+struct TakeBlock {
+  Blocks* blocks;
+  EIGENCRUST_UNSEEN_BY_THREAD_SANITIZER void operator()(std::size_t block) const { blocks->take(block); }
+};
 
 /// How many of `wanted` threads the system gives beside this one. Asked before the library does: where it is refused
 /// one, it fails, and fewer would do as well.
@@ -82,19 +114,13 @@ void Threads::run_erased(std::size_t blocks, void (*call)(void*, std::size_t), v
     for (std::size_t b = 0; b < blocks; ++b) call(function, b);
     return;
   }
-  FirstError error;
-  const auto take = [&](std::size_t block) {
-    try {
-      call(function, block);
-    } catch (...) {
-      error.take(block); // the other blocks go on: which of several exceptions is seen must not depend on time
-    }
-  };
+  Blocks all(call, function);
   // Isolated: who waits for these blocks takes no others, which may be long or use the same tables.
   impl_->arena.execute([&] {
-    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, blocks, take, tbb::simple_partitioner()); });
+    tbb::this_task_arena::isolate(
+        [&] { tbb::parallel_for(std::size_t{0}, blocks, TakeBlock{&all}, tbb::simple_partitioner()); });
   });
-  error.rethrow();
+  all.finish();
 }
 
 } // namespace eigencrust

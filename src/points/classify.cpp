@@ -32,7 +32,7 @@ class Vertices {
   [[nodiscard]] double tolerance(std::size_t v) const { return tolerance_[v]; }
   /// Is it no spike, and does it not stand alone, as surface made of outliers does?
   [[nodiscard]] bool is_plausible(std::size_t v) const {
-    return height_[v] <= tolerance_[v] && !(model_.isolated[surface_.sample_of[v].value] > 0);
+    return height_[v] <= tolerance_[v] && !(model_.isolated[surface_.sample_of[v]] > 0);
   }
 
  private:

@@ -48,12 +48,12 @@ class VertexNormals {
   }
 
   /// How often the normal at v is to be averaged with those of its neighbours.
-  [[nodiscard]] int steps(std::size_t v, std::span<const float> grid_spacing) const {
-    if (grid_spacing.empty() || !(grid_spacing[surface_.sample_of[v].value] > 0)) return 0;
+  [[nodiscard]] int steps(std::size_t v, SampleLengthsView grid_spacing) const {
+    if (grid_spacing.empty() || !(grid_spacing[surface_.sample_of[v]] > 0)) return 0;
     double edges = 0;
     for (const auto& wing : fans_[v]) edges += distance(at(v), at(wing.next));
     const double mean = edges / static_cast<double>(fans_[v].size());
-    const double ratio = static_cast<double>(grid_spacing[surface_.sample_of[v].value]) / mean;
+    const double ratio = static_cast<double>(grid_spacing[surface_.sample_of[v]]) / mean;
     return static_cast<int>(std::lround(steps_per_ratio * std::min(2.0, ratio)));
   }
 
@@ -73,7 +73,7 @@ class VertexNormals {
 };
 
 std::vector<Vec3> vertex_normals(const Surface& surface, const std::vector<std::uint8_t>& plausible,
-                                 std::span<const float> grid_spacing, const Threads& threads) {
+                                 SampleLengthsView grid_spacing, const Threads& threads) {
   const std::size_t n = surface.mesh.vertices.size();
   const VertexNormals rule(surface, plausible);
   std::vector<Vec3> by_angle(n), by_area(n);
@@ -113,7 +113,7 @@ Vec3 normal_near(const Vec3& p, const Corners& c, const std::array<Vec3, 3>& nor
 } // namespace
 
 IndexedArray<SampleIndex, Vec3> orient_samples(const Tetrahedralization& t, const Surface& surface,
-                                               const Classification& samples, std::span<const float> grid_spacing,
+                                               const Classification& samples, SampleLengthsView grid_spacing,
                                                const Threads& threads) {
   std::vector<std::uint8_t> plausible(surface.mesh.vertices.size());
   for (std::uint32_t v = 0; v < plausible.size(); ++v)

@@ -11,7 +11,7 @@ namespace eigencrust {
 /// many neighbours as the noise asks for; between the vertices of its place for a sample beside the surface.
 /// NaN for the others.
 IndexedArray<SampleIndex, Vec3> orient_samples(const Tetrahedralization& tetrahedralization, const Surface& surface,
-                                               const Classification& samples, std::span<const float> grid_spacing,
+                                               const Classification& samples, SampleLengthsView grid_spacing,
                                                const Threads& threads);
 
 } // namespace eigencrust

@@ -10,7 +10,7 @@ namespace {
 
 PointResults results_by_row(const Scene& scene, const Surface& surface, const Threads& threads) {
   const Tetrahedralization& t = scene.tetrahedralization;
-  const std::vector<float>& grid = scene.measures.grid;
+  const SampleLengths& grid = scene.measures.grid;
   const Classification classes = classify_samples(t, surface, scene.measures.model, threads);
   const IndexedArray<SampleIndex, Vec3> normals = orient_samples(t, surface, classes, grid, threads);
   const std::vector<SampleIndex>& sample = scene.sample_of_row;

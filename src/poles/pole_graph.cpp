@@ -26,7 +26,7 @@ Lists sample_neighbours(const Tetrahedralization& t, const VertexStars& stars, c
     return [&, distinct = DistinctNumbers(t.sample_count)](std::size_t s, std::vector<std::uint32_t>& row) mutable {
       distinct.clear();
       for (const TetrahedronIndex tetrahedron : stars[SampleIndex{static_cast<std::uint32_t>(s)}])
-        for (const SampleIndex v : t.tetrahedra[tetrahedron])
+        for (const VertexIndex v : t.tetrahedra[tetrahedron])
           if (v.value != s && !t.is_corner(v)) distinct.add(v.value);
       row.insert(row.end(), distinct.numbers().begin(), distinct.numbers().end());
     };
@@ -66,17 +66,20 @@ double same_weight(const Sphere& a, const Sphere& b) {
 class Contraction {
  public:
   Contraction(const Poles& poles, const Lists& neighbours, const std::vector<std::uint32_t>& node_of,
-              std::span<const float> isolated, const Threads& threads)
+              SampleLengthsView isolated, const Threads& threads)
       : parent_(poles.tetrahedron.size()) {
     std::iota(parent_.begin(), parent_.end(), 0u);
     const auto is_node = [&](PoleIndex p) { return p.valid() && node_of[p.value] < inside_node; };
     const auto coincide = [&](PoleIndex p, PoleIndex q) {
       return p != q && is_node(p) && is_node(q) && cosine_of_spheres(poles.sphere[p], poles.sphere[q]) < nearly_one;
     };
+    const auto is_isolated = [&](std::size_t s) {
+      return !isolated.empty() && isolated[SampleIndex{static_cast<std::uint32_t>(s)}] > 0;
+    };
     using Pair = std::array<std::uint32_t, 2>;
     const auto write = [&](std::size_t s, std::vector<Pair>& pairs) {
       for (const std::uint32_t n : neighbours[s]) {
-        if (n < s || (!isolated.empty() && (isolated[s] > 0 || isolated[n] > 0))) continue;
+        if (n < s || is_isolated(s) || is_isolated(n)) continue;
         const PolePair &here = poles.of_sample.raw()[s], &there = poles.of_sample.raw()[n];
         for (const PoleIndex p : {here.first, here.second})
           for (const PoleIndex q : {there.first, there.second})
@@ -121,7 +124,7 @@ using Entry = std::pair<std::uint32_t, float>; ///< column and weight
 class RowAssembler {
  public:
   RowAssembler(const Tetrahedralization& t, const Poles& poles, const Lists& neighbours, const Lists& samples_of,
-               const std::vector<std::uint32_t>& node_of, std::uint32_t nodes, std::span<const float> isolated)
+               const std::vector<std::uint32_t>& node_of, std::uint32_t nodes, SampleLengthsView isolated)
       : t_(t),
         poles_(poles),
         neighbours_(neighbours),
@@ -155,7 +158,7 @@ class RowAssembler {
     for (const std::uint32_t q : candidates_.numbers()) {
       const auto opposite =
           std::find_if(opposite_.begin(), opposite_.end(), [&](const Opposite& o) { return o.pole == q; });
-      const double w = opposite != opposite_.end() ? weight_of_pair(opposite->sample, p, q)
+      const double w = opposite != opposite_.end() ? weight_of_pair(SampleIndex{opposite->sample}, p, q)
                                                    : same_weight(poles_.sphere.raw()[p], poles_.sphere.raw()[q]);
       if (w == 0) continue;
       const std::uint32_t node = node_of_[q];
@@ -168,9 +171,9 @@ class RowAssembler {
     }
   }
 
-  double weight_of_pair(std::uint32_t sample, std::uint32_t p, std::uint32_t q) const {
+  double weight_of_pair(SampleIndex sample, std::uint32_t p, std::uint32_t q) const {
     const Sphere &a = poles_.sphere.raw()[p], &b = poles_.sphere.raw()[q];
-    const Vec3& s = t_.positions.raw()[sample];
+    const Vec3& s = t_.positions[sample];
     const double w = opposite_weight(s, a, b);
     if (isolated_.empty() || !(isolated_[sample] > 0)) return w;
     const double shorter = std::min(distance(a.centre, s), distance(b.centre, s));
@@ -204,7 +207,7 @@ class RowAssembler {
   const Poles& poles_;
   const Lists &neighbours_, &samples_of_;
   const std::vector<std::uint32_t>& node_of_;
-  std::span<const float> isolated_;
+  SampleLengthsView isolated_;
   DistinctNumbers candidates_;
   WeightTable sums_;
   std::vector<Opposite> opposite_;
@@ -219,7 +222,7 @@ void repel_supernodes(SignedGraph& graph) {
 }
 
 /// Gives the poles that are nodes (0 before) their numbers, by the first pole of each. \return how many nodes
-std::uint32_t number_nodes(const Poles& poles, const Lists& neighbours, bool contract, std::span<const float> isolated,
+std::uint32_t number_nodes(const Poles& poles, const Lists& neighbours, bool contract, SampleLengthsView isolated,
                            const Threads& threads, std::vector<std::uint32_t>& node_of) {
   std::uint32_t nodes = 0;
   if (!contract) {
@@ -247,7 +250,7 @@ Lists members_of(const std::vector<std::uint32_t>& node_of, std::uint32_t nodes)
 } // namespace
 
 PoleGraph pole_graph(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& known,
-                     std::span<const std::uint8_t> left_out, std::span<const float> isolated, bool contract,
+                     std::span<const std::uint8_t> left_out, SampleLengthsView isolated, bool contract,
                      const Threads& threads) {
   std::vector<std::uint32_t> node_of(poles.tetrahedron.size(), no_node);
   for (std::uint32_t p = 0; p < poles.tetrahedron.size(); ++p) {

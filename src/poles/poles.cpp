@@ -95,23 +95,24 @@ TetrahedronPair widest_pair(const Vec3& s, std::span<const std::uint32_t> near, 
 }
 
 /// Replaces the pairs of samples whose reach exceeds the distance to their neighbours.
-void widen_pairs(const Tetrahedralization& t, std::span<const float> reach, const PointTree& tree,
-                 const Centres& centres, std::vector<TetrahedronPair>& pairs, const Threads& threads) {
+void widen_pairs(const Tetrahedralization& t, SampleLengthsView reach, const PointTree& tree, const Centres& centres,
+                 std::vector<TetrahedronPair>& pairs, const Threads& threads) {
   const std::vector<TetrahedronPair> own = pairs;
   for_each_index(
       threads, t.sample_count,
       [&](std::size_t i) {
-        if (!(reach[i] > 0)) return;
-        const Vec3& s = t.positions.raw()[i];
-        const std::vector<std::uint32_t> near = tree.within(s, static_cast<double>(reach[i]));
-        if (near.size() > 1) pairs[i] = widest_pair(s, near, own, centres);
+        const SampleIndex s{static_cast<std::uint32_t>(i)};
+        if (!(reach[s] > 0)) return;
+        const Vec3& p = t.positions[s];
+        const std::vector<std::uint32_t> near = tree.within(p, static_cast<double>(reach[s]));
+        if (near.size() > 1) pairs[i] = widest_pair(p, near, own, centres);
       },
       costly_block);
 }
 
 } // namespace
 
-Poles find_poles(const Tetrahedralization& t, const VertexStars& stars, std::span<const float> reach, Weights weights,
+Poles find_poles(const Tetrahedralization& t, const VertexStars& stars, SampleLengthsView reach, Weights weights,
                  const Threads& threads) {
   const bool some_reach = std::any_of(reach.begin(), reach.end(), [](float r) { return r > 0; });
   std::optional<PointTree> tree;

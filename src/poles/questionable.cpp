@@ -9,7 +9,7 @@
 namespace eigencrust {
 namespace {
 
-double squared_longest_edge(const Tetrahedralization& t, const std::array<SampleIndex, 4>& v) {
+double squared_longest_edge(const Tetrahedralization& t, const std::array<VertexIndex, 4>& v) {
   double longest = 0;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = i + 1; j < 4; ++j)
@@ -19,7 +19,7 @@ double squared_longest_edge(const Tetrahedralization& t, const std::array<Sample
 
 } // namespace
 
-std::vector<std::uint8_t> questionable_tetrahedra(const Tetrahedralization& t, std::span<const float> grid_spacing,
+std::vector<std::uint8_t> questionable_tetrahedra(const Tetrahedralization& t, SampleLengthsView grid_spacing,
                                                   const Threads& threads) {
   if (grid_spacing.empty()) return {};
   std::vector<std::uint8_t> questionable(t.tetrahedra.size(), 0);
@@ -27,7 +27,7 @@ std::vector<std::uint8_t> questionable_tetrahedra(const Tetrahedralization& t, s
     const TetrahedronIndex index{static_cast<std::uint32_t>(i)};
     if (t.touches_cube(index)) return;
     double limit = 0; // 4 × the mean of four
-    for (const SampleIndex s : t.tetrahedra[index]) limit += static_cast<double>(grid_spacing[s.value]);
+    for (const VertexIndex v : t.tetrahedra[index]) limit += static_cast<double>(grid_spacing[t.sample(v)]);
     questionable[i] = squared_longest_edge(t, t.tetrahedra[index]) < limit * limit;
   });
   return questionable;

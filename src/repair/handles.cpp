@@ -91,8 +91,8 @@ class HandleClosing {
     const SampleModel& model = moves_.scene.model;
     double noise = 0, spacing = 0;
     for (const std::uint32_t s : loop) {
-      noise += static_cast<double>(model.noise[s]);
-      spacing += static_cast<double>(model.spacing[s]);
+      noise += static_cast<double>(model.noise[SampleIndex{s}]);
+      spacing += static_cast<double>(model.spacing[SampleIndex{s}]);
     }
     const double reach = std::max(noise_reach * noise / spacing, sampling_reach);
     const bool is_meant = static_cast<double>(loop.size()) > 2 * std::numbers::pi * reach;
@@ -124,10 +124,10 @@ class HandleClosing {
   Region disc_of(const Loop& loop, bool with_stars) {
     Vec3 centre;
     for (const std::uint32_t s : loop)
-      centre = centre + (1.0 / static_cast<double>(loop.size())) * t_.positions[SampleIndex{s}];
+      centre = centre + (1.0 / static_cast<double>(loop.size())) * t_.positions[VertexIndex{s}];
     Region region;
     for (std::size_t k = 0; k < loop.size(); ++k) {
-      const SampleIndex here{loop[k]}, next{loop[(k + 1) % loop.size()]};
+      const VertexIndex here{loop[k]}, next{loop[(k + 1) % loop.size()]};
       for (const TetrahedronIndex i : stars_[here])
         if (const auto& v = t_.tetrahedra[i]; with_stars || std::find(v.begin(), v.end(), next) != v.end())
           take(i, region);

@@ -34,7 +34,7 @@ class PaperRepair {
         if (checkpoint && i % default_block == 0)
           checkpoint(static_cast<double>(i) / static_cast<double>(round.size()));
         waiting_[round[i]] = 0;
-        if (!link_.is_disc(SampleIndex{round[i]})) repair(SampleIndex{round[i]});
+        if (!link_.is_disc(VertexIndex{round[i]})) repair(SampleIndex{round[i]});
       }
       // Samples whose star changed after their turn come again, in increasing order.
       round.clear();
@@ -47,7 +47,7 @@ class PaperRepair {
  private:
   void repair(SampleIndex s) {
     star_.fill(s);
-    for (SampleIndex edge; (edge = edge_with_several_strands(star_, labels_.labels())).valid(); ++counts_.edges) {
+    for (VertexIndex edge; (edge = edge_with_several_strands(star_, labels_.labels())).valid(); ++counts_.edges) {
       star_.components(labels_.labels(), Label::inside, edge, component_);
       drop_all_but(strongest_component());
     }
@@ -81,7 +81,7 @@ class PaperRepair {
   void set_outside(std::uint32_t i) {
     labels_.turn(star_[i]);
     ++counts_.relabelled;
-    for (const SampleIndex v : t_.tetrahedra[star_[i]]) {
+    for (const VertexIndex v : t_.tetrahedra[star_[i]]) {
       if (t_.is_corner(v) || waiting_[v.value]) continue;
       waiting_[v.value] = 1;
       next_.push_back(v.value);
@@ -94,7 +94,7 @@ class PaperRepair {
   }
 
   void keep_one_inside_component(SampleIndex s) {
-    if (star_.components(labels_.labels(), Label::inside, SampleIndex{}, component_) < 2) return;
+    if (star_.components(labels_.labels(), Label::inside, VertexIndex{}, component_) < 2) return;
     const PolePair pair = poles_.of_sample[s];
     std::uint32_t kept_pole = Star::none;
     for (std::uint32_t i = 0; i < star_.size(); ++i) {
@@ -108,7 +108,7 @@ class PaperRepair {
   }
 
   bool join_two_outside_components() {
-    if (star_.components(labels_.labels(), Label::outside, SampleIndex{}, component_) < 2) return false;
+    if (star_.components(labels_.labels(), Label::outside, VertexIndex{}, component_) < 2) return false;
     const auto length = [&](std::uint32_t i) { return magnitude(i); };
     const std::vector<std::uint32_t> path = shortest_path(star_, component_, length);
     for (const std::uint32_t i : path) set_outside(i);

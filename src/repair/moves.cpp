@@ -33,8 +33,7 @@ std::vector<float> prices(const MoveScene& scene, const Labels& labels) {
   std::vector<std::uint8_t> lonely(n), passed(n);
   for_each_index(scene.threads, n, [&](std::size_t at) {
     const SampleIndex s{static_cast<std::uint32_t>(at)};
-    lonely[at] =
-        scene.model.isolated[at] > 0 || nearest_sample(scene, s) > static_cast<double>(scene.model.spacing[at]);
+    lonely[at] = scene.model.isolated[s] > 0 || nearest_sample(scene, s) > static_cast<double>(scene.model.spacing[s]);
     passed[at] = is_passed(scene, labels, s);
   });
   std::array<double, 2> off{};
@@ -54,7 +53,7 @@ std::vector<float> prices(const MoveScene& scene, const Labels& labels) {
 double nearest_sample(const MoveScene& scene, SampleIndex s) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const TetrahedronIndex i : scene.stars[s])
-    for (const SampleIndex v : scene.t.tetrahedra[i])
+    for (const VertexIndex v : scene.t.tetrahedra[i])
       if (v != s) nearest = std::min(nearest, squared_norm(scene.t.positions[v] - scene.t.positions[s]));
   return std::sqrt(nearest);
 }
@@ -78,8 +77,8 @@ ManifoldCounts Moves::make_manifold(const Checkpoint& checkpoint) {
 std::vector<std::uint32_t> Moves::samples_of(std::span<const TetrahedronIndex> tetrahedra) const {
   std::vector<std::uint32_t> samples;
   for (const TetrahedronIndex i : tetrahedra)
-    for (const SampleIndex s : scene.t.tetrahedra[i])
-      if (!scene.t.is_corner(s)) samples.push_back(s.value);
+    for (const VertexIndex v : scene.t.tetrahedra[i])
+      if (!scene.t.is_corner(v)) samples.push_back(v.value);
   std::sort(samples.begin(), samples.end());
   samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
   return samples;
@@ -155,7 +154,7 @@ bool Moves::turn_back(TetrahedronIndex i) {
   priced_.turn(i);
   const auto& v = scene.t.tetrahedra[i];
   const bool same =
-      std::all_of(v.begin(), v.end(), [&](SampleIndex s) { return scene.t.is_corner(s) || link_.is_disc(s); });
+      std::all_of(v.begin(), v.end(), [&](VertexIndex s) { return scene.t.is_corner(s) || link_.is_disc(s); });
   if (priced_.back_with_euler(then) != 0 || !same) return false;
   priced_.turn(i);
   return true;

@@ -10,7 +10,7 @@
 namespace eigencrust {
 
 PricedLabels::PricedLabels(const Tetrahedralization& t, const VertexStars& stars, const Energy& energy,
-                           std::span<const float> spacing, std::vector<float> price, TetrahedronLabels& labels,
+                           SampleLengthsView spacing, std::vector<float> price, TetrahedronLabels& labels,
                            const Threads& threads)
     : t_(t),
       stars_(stars),
@@ -19,9 +19,9 @@ PricedLabels::PricedLabels(const Tetrahedralization& t, const VertexStars& stars
       price_(std::move(price)),
       labels_(labels),
       inside_(t.positions.size()) {
-  price_.resize(t.positions.size(), 0.0f); // the cube's corners have none
+  price_.raw().resize(t.positions.size(), 0.0f); // the cube's corners have none
   for_each_index(threads, inside_.size(), [&](std::size_t at) {
-    const SampleIndex s{static_cast<std::uint32_t>(at)};
+    const VertexIndex s{static_cast<std::uint32_t>(at)};
     for (const TetrahedronIndex i : stars_[s]) inside_[s] += labels_[i] == Label::inside;
   });
 }
@@ -38,10 +38,10 @@ double PricedLabels::cost_of(TetrahedronIndex i) const {
   for (std::size_t k = 0; k < 4; ++k) {
     const TetrahedronIndex n = t_.neighbours[i][k];
     if (n.valid()) cost += labels_[n] == labels_[i] ? price_of_length(i, k) : -price_of_length(i, k);
-    const SampleIndex s = t_.tetrahedra[i][k];
+    const VertexIndex s = t_.tetrahedra[i][k];
     const std::uint32_t inside = labels_[i] == Label::inside ? inside_[s] - 1 : inside_[s] + 1;
     const bool comes = inside > 0 && inside < star_size(s);
-    if (comes != on_surface(s)) cost += static_cast<double>(comes ? -price_[s.value] : price_[s.value]);
+    if (comes != on_surface(s)) cost += static_cast<double>(comes ? -price_[s] : price_[s]);
   }
   return cost;
 }
@@ -50,9 +50,9 @@ double PricedLabels::price_of_length(TetrahedronIndex i, std::size_t k) const {
   const auto& face = face_opposite[k];
   double longest = 0, spacing = 0;
   for (std::size_t j = 0; j < face.size(); ++j) {
-    const SampleIndex a = t_.tetrahedra[i][face[j]], b = t_.tetrahedra[i][face[(j + 1) % face.size()]];
+    const VertexIndex a = t_.tetrahedra[i][face[j]], b = t_.tetrahedra[i][face[(j + 1) % face.size()]];
     longest = std::max(longest, squared_norm(t_.positions[a] - t_.positions[b]));
-    spacing += t_.is_corner(a) ? 0 : static_cast<double>(spacing_[a.value]) / static_cast<double>(face.size());
+    spacing += t_.is_corner(a) ? 0 : static_cast<double>(spacing_[t_.sample(a)]) / static_cast<double>(face.size());
   }
   if (!(spacing > 0)) return 0; // of the cube
   // The energy knows the shape of a triangle and not its size. A long one costs as many such lengths as it has more.
@@ -61,7 +61,7 @@ double PricedLabels::price_of_length(TetrahedronIndex i, std::size_t k) const {
 
 void PricedLabels::flip(TetrahedronIndex i) {
   labels_.turn(i);
-  for (const SampleIndex s : t_.tetrahedra[i]) inside_[s] += labels_[i] == Label::inside ? 1u : ~0u;
+  for (const VertexIndex s : t_.tetrahedra[i]) inside_[s] += labels_[i] == Label::inside ? 1u : ~0u;
 }
 
 std::vector<TetrahedronIndex> PricedLabels::turned_since(std::size_t then) const {
@@ -98,7 +98,7 @@ std::int64_t PricedLabels::euler_change(TetrahedronIndex i) const {
   const Label label = labels_[i], other = other_side(label);
   std::int64_t change = 0;
   for (std::size_t k = 0; k < 4; ++k) {
-    const SampleIndex s = t_.tetrahedra[i][k];
+    const VertexIndex s = t_.tetrahedra[i][k];
     const std::uint32_t others = label == Label::inside ? star_size(s) - inside_[s] : inside_[s];
     change += others == 0 ? 1 : others + 1 == star_size(s) ? -1 : 0;
     const TetrahedronIndex n = t_.neighbours[i][k];
@@ -111,7 +111,7 @@ std::int64_t PricedLabels::euler_change(TetrahedronIndex i) const {
 
 /// Do all other tetrahedra around the edge of vertices a and b have that label?
 bool PricedLabels::rest_of_ring(TetrahedronIndex i, std::size_t a, std::size_t b, Label label) const {
-  const SampleIndex p = t_.tetrahedra[i][a], q = t_.tetrahedra[i][b];
+  const VertexIndex p = t_.tetrahedra[i][a], q = t_.tetrahedra[i][b];
   for (std::size_t way = 0; way < 4; ++way) {
     if (way == a || way == b) continue;
     TetrahedronIndex from = i, here = t_.neighbours[i][way];
@@ -121,7 +121,7 @@ bool PricedLabels::rest_of_ring(TetrahedronIndex i, std::size_t a, std::size_t b
       const TetrahedronIndex entered = from;
       from = here;
       for (std::size_t k = 0; k < 4; ++k) {
-        const SampleIndex s = t_.tetrahedra[from][k];
+        const VertexIndex s = t_.tetrahedra[from][k];
         if (s == p || s == q || t_.neighbours[from][k] == entered) continue;
         here = t_.neighbours[from][k];
       }

@@ -17,8 +17,7 @@ class PricedLabels {
   /// \param price   of each sample that is not on the surface, in units of the energy
   /// \param spacing of each sample
   PricedLabels(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Energy& energy,
-               std::span<const float> spacing, std::vector<float> price, TetrahedronLabels& labels,
-               const Threads& threads);
+               SampleLengthsView spacing, std::vector<float> price, TetrahedronLabels& labels, const Threads& threads);
 
   Label operator[](TetrahedronIndex i) const { return labels_[i]; }
   [[nodiscard]] const Labels& all() const { return labels_.labels(); }
@@ -29,9 +28,9 @@ class PricedLabels {
 
   /// Energy, prices of the samples and of long triangles, less those of the beginning.
   [[nodiscard]] double cost() const { return cost_; }
-  [[nodiscard]] double price(SampleIndex s) const { return static_cast<double>(price_[s.value]); }
+  [[nodiscard]] double price(VertexIndex s) const { return static_cast<double>(price_[s]); }
   /// Has the sample tetrahedra of both sides around it?
-  [[nodiscard]] bool on_surface(SampleIndex s) const { return inside_[s] > 0 && inside_[s] < star_size(s); }
+  [[nodiscard]] bool on_surface(VertexIndex s) const { return inside_[s] > 0 && inside_[s] < star_size(s); }
 
   /// A point in time, for the following.
   [[nodiscard]] std::size_t now() const { return journal_.size(); }
@@ -47,7 +46,7 @@ class PricedLabels {
     double cost_before;
   };
 
-  [[nodiscard]] std::uint32_t star_size(SampleIndex s) const {
+  [[nodiscard]] std::uint32_t star_size(VertexIndex s) const {
     return static_cast<std::uint32_t>(stars_.begin[s.value + 1] - stars_.begin[s.value]);
   }
   void flip(TetrahedronIndex i);
@@ -58,10 +57,10 @@ class PricedLabels {
   const Tetrahedralization& t_;
   const VertexStars& stars_;
   const Energy& energy_;
-  std::span<const float> spacing_;
-  std::vector<float> price_;
+  SampleLengthsView spacing_;
+  IndexedArray<VertexIndex, float> price_; ///< 0 for the corners of the cube
   TetrahedronLabels& labels_;
-  IndexedArray<SampleIndex, std::uint32_t> inside_; ///< tetrahedra of the star
+  IndexedArray<VertexIndex, std::uint32_t> inside_; ///< tetrahedra of the star
   std::vector<Turn> journal_;
   double cost_ = 0;
 };

@@ -27,7 +27,8 @@ TetrahedronIndex best_tetrahedron(const Moves& moves, SampleIndex s) {
     double spacing = 0; // of the triangle's samples
     for (const std::size_t j : face_opposite[k])
       if (!scene.t.is_corner(v[j]))
-        spacing += static_cast<double>(scene.model.spacing[v[j].value]) / static_cast<double>(face_opposite[k].size());
+        spacing += static_cast<double>(scene.model.spacing[scene.t.sample(v[j])]) /
+                   static_cast<double>(face_opposite[k].size());
     if (nearest > max_loneliness * spacing) continue;
     const double cost = moves.labels().cost_of(i);
     if (cost >= least) continue;

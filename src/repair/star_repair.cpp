@@ -35,7 +35,7 @@ bool StarRepair::run(std::vector<std::uint32_t> round, std::span<const Tetrahedr
     for (std::size_t k = 0; k < round.size() && possible; ++k) {
       if (checkpoint && k % default_block == 0) checkpoint(static_cast<double>(k) / static_cast<double>(round.size()));
       waiting_[round[k]] = 0;
-      possible = mend(SampleIndex{round[k]}) && counts.relabelled - before <= most;
+      possible = mend(VertexIndex{round[k]}) && counts.relabelled - before <= most;
     }
     for (const std::uint32_t s : round) waiting_[s] = 0;
     // Samples whose star changed after their turn come again, in increasing order.
@@ -48,7 +48,7 @@ bool StarRepair::run(std::vector<std::uint32_t> round, std::span<const Tetrahedr
   return possible;
 }
 
-bool StarRepair::mend(SampleIndex s) {
+bool StarRepair::mend(VertexIndex s) {
   if (link_.is_disc(s)) return true;
   star_.fill(s);
   for (bool mended = false; !mended;) {
@@ -60,7 +60,7 @@ bool StarRepair::mend(SampleIndex s) {
 }
 
 bool StarRepair::mend_edges() {
-  for (SampleIndex edge; (edge = edge_with_several_strands(star_, labels_.all())).valid(); ++counts.edges) {
+  for (VertexIndex edge; (edge = edge_with_several_strands(star_, labels_.all())).valid(); ++counts.edges) {
     Candidate best{infinity, {}};
     offer_components(Label::inside, edge, best);
     offer_components(Label::outside, edge, best);
@@ -72,8 +72,8 @@ bool StarRepair::mend_edges() {
 
 bool StarRepair::mend_vertex(bool& mended) {
   Candidate best{infinity, {}};
-  const std::uint32_t inside = offer_components(Label::inside, SampleIndex{}, best);
-  const std::uint32_t outside = offer_components(Label::outside, SampleIndex{}, best);
+  const std::uint32_t inside = offer_components(Label::inside, VertexIndex{}, best);
+  const std::uint32_t outside = offer_components(Label::outside, VertexIndex{}, best);
   mended = inside < 2 && outside < 2;
   if (mended) return true;
   offer_path(Label::inside, best);
@@ -115,7 +115,7 @@ void StarRepair::offer(std::vector<TetrahedronIndex> members, Candidate& best) {
 }
 
 /// Offers the sets of `label` (at an edge, or in the whole star) where there are several. \return how many
-std::uint32_t StarRepair::offer_components(Label label, SampleIndex edge, Candidate& best) {
+std::uint32_t StarRepair::offer_components(Label label, VertexIndex edge, Candidate& best) {
   const std::uint32_t count = star_.components(labels_.all(), label, edge, component_);
   for (std::uint32_t c = 0; count > 1 && c < count; ++c) {
     std::vector<TetrahedronIndex> members;
@@ -129,7 +129,7 @@ std::uint32_t StarRepair::offer_components(Label label, SampleIndex edge, Candid
 /// Offers a path through the other label that joins two sets of `label`: the shortest by the sum of what each
 /// tetrahedron costs alone (> 0 at a minimum of the energy).
 void StarRepair::offer_path(Label label, Candidate& best) {
-  if (star_.components(labels_.all(), label, SampleIndex{}, component_) < 2) return;
+  if (star_.components(labels_.all(), label, VertexIndex{}, component_) < 2) return;
   std::vector<TetrahedronIndex> path;
   for (const std::uint32_t i : shortest_path(star_, component_, [&](std::uint32_t p) {
          if (!may_turn(star_[p])) return infinity;
@@ -144,7 +144,7 @@ void StarRepair::turn(const std::vector<TetrahedronIndex>& members) {
     if (labels_[i] == Label::outside) filled_[i] = run_;
     labels_.turn(i);
     ++counts.relabelled;
-    for (const SampleIndex s : t_.tetrahedra[i]) {
+    for (const VertexIndex s : t_.tetrahedra[i]) {
       if (t_.is_corner(s) || waiting_[s.value]) continue;
       waiting_[s.value] = 1;
       next_.push_back(s.value);

@@ -37,14 +37,14 @@ class StarRepair {
     std::vector<TetrahedronIndex> members;
   };
 
-  bool mend(SampleIndex s);
+  bool mend(VertexIndex s);
   bool mend_edges();
   bool mend_vertex(bool& mended);
   [[nodiscard]] bool may_turn(TetrahedronIndex i) const;
   [[nodiscard]] double extra_price(TetrahedronIndex i) const;
   double price_of(std::span<const TetrahedronIndex> members);
   void offer(std::vector<TetrahedronIndex> members, Candidate& best);
-  std::uint32_t offer_components(Label label, SampleIndex edge, Candidate& best);
+  std::uint32_t offer_components(Label label, VertexIndex edge, Candidate& best);
   void offer_path(Label label, Candidate& best);
   void turn(const std::vector<TetrahedronIndex>& members);
 

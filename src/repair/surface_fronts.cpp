@@ -7,7 +7,7 @@ namespace eigencrust {
 
 std::int64_t SurfaceFronts::pieces(const std::vector<std::uint32_t>& samples) {
   for (const std::uint32_t s : samples) {
-    if (!labels_.on_surface(SampleIndex{s})) continue;
+    if (!labels_.on_surface(VertexIndex{s})) continue;
     owner_[s] = static_cast<std::uint32_t>(root_.size());
     root_.push_back(owner_[s]);
     rim_.push_back({s});
@@ -39,7 +39,7 @@ void SurfaceFronts::grow(std::uint32_t front) {
   std::vector<std::uint32_t> ring, next;
   std::swap(ring, rim_[front]);
   for (const std::uint32_t s : ring)
-    for (const TetrahedronIndex i : stars_[SampleIndex{s}]) {
+    for (const TetrahedronIndex i : stars_[VertexIndex{s}]) {
       if (labels_[i] != Label::inside) continue;
       const auto& v = t_.tetrahedra[i];
       for (std::size_t k = 0; k < 4; ++k) {

@@ -10,7 +10,7 @@
 
 namespace eigencrust {
 
-bool LinkCheck::is_disc(SampleIndex s) {
+bool LinkCheck::is_disc(VertexIndex s) {
   arcs_.clear();
   for (const TetrahedronIndex i : stars_[s]) {
     if (labels_[i] != Label::inside) continue;
@@ -53,7 +53,7 @@ std::vector<std::uint32_t> unsound_stars(const Tetrahedralization& t, const Vert
   auto rows = build_rows<std::uint32_t>(threads, t.sample_count, default_block, [&] {
     return [link = LinkCheck(t, stars, labels)](std::size_t at, std::vector<std::uint32_t>& row) mutable {
       const auto s = static_cast<std::uint32_t>(at);
-      if (!link.is_disc(SampleIndex{s})) row.push_back(s);
+      if (!link.is_disc(VertexIndex{s})) row.push_back(s);
     };
   });
   return std::move(rows.item);
@@ -66,8 +66,8 @@ std::uint64_t overruled(const Labels& known, const Labels& labels) {
   return count;
 }
 
-SampleIndex edge_with_several_strands(const Star& star, const Labels& labels) {
-  std::vector<SampleIndex> ends;
+VertexIndex edge_with_several_strands(const Star& star, const Labels& labels) {
+  std::vector<VertexIndex> ends;
   for (std::uint32_t i = 0; i < star.size(); ++i) {
     if (labels[star[i]] != Label::inside) continue;
     for (std::size_t k = 0; k < 3; ++k) {

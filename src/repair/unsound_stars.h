@@ -19,7 +19,7 @@ class LinkCheck {
   LinkCheck(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Labels& labels)
       : t_(tetrahedralization), stars_(stars), labels_(labels) {}
 
-  bool is_disc(SampleIndex s);
+  bool is_disc(VertexIndex s);
 
  private:
   [[nodiscard]] std::size_t steps_around() const;
@@ -43,7 +43,7 @@ std::uint64_t overruled(const Labels& known, const Labels& labels);
 
 /// The first neighbour of the star's sample at whose edge more than two surface triangles meet; several strands of
 /// inside tetrahedra lie around that edge. Invalid if there is none.
-SampleIndex edge_with_several_strands(const Star& star, const Labels& labels);
+VertexIndex edge_with_several_strands(const Star& star, const Labels& labels);
 
 /// Shortest face-connected path through the star from set 0 to another, without the sets.
 /// \param component the set of each tetrahedron, or Star::none

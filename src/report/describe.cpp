@@ -18,8 +18,9 @@
 namespace eigencrust {
 namespace {
 
-void describe_noise(std::vector<float> grid_spacing, Run& run) {
-  if (grid_spacing.empty()) return;
+void describe_noise(const SampleLengths& grid, Run& run) {
+  if (grid.empty()) return;
+  std::vector<float> grid_spacing = grid.raw();
   for (const auto& [name, share] :
        {std::pair{"grid_spacing_q10", 0.1}, std::pair{"grid_spacing_median", 0.5}, std::pair{"grid_spacing_q90", 0.9}})
     run.count("sample_model", name, static_cast<double>(quantile(grid_spacing, share)));

@@ -31,6 +31,7 @@ Json json_of(const MeshSummary& m) {
             {"inconsistent_edges", m.inconsistent_edges},
             {"degenerate_triangles", m.degenerate_triangles},
             {"self_intersections", m.self_intersections < 0 ? Json() : Json(m.self_intersections)},
+            {"all_self_intersections", m.self_intersections < 0 ? Json() : Json(m.all_self_intersections)},
             {"components", m.components},
             {"genus", m.genus},
             {"euler", m.euler},

@@ -34,7 +34,7 @@ TriangleMesh snapshot_of_tetrahedra(const Tetrahedralization& t, const Tetrahedr
   for (std::uint32_t i = 0; i < t.tetrahedra.size(); ++i) {
     if (t.touches_cube(TetrahedronIndex{i})) continue;
     Vec3 centroid = t.origin;
-    for (const SampleIndex s : t.tetrahedra.raw()[i]) centroid = centroid + 0.25 * t.positions[s];
+    for (const VertexIndex s : t.tetrahedra.raw()[i]) centroid = centroid + 0.25 * t.positions[s];
     snapshot.vertices.push_back(centroid);
     value.push_back(labels.values().raw()[i]);
     label.push_back(static_cast<double>(labels.labels().raw()[i]));

@@ -19,16 +19,16 @@ std::optional<double> given_noise(const Options& options, double diagonal) {
 
 } // namespace
 
-std::vector<float> reach_for_poles(const SampleMeasures& measures) {
+SampleLengths reach_for_poles(const SampleMeasures& measures) {
   // Twice ℓ: from the middle of the noise to where it thins out on either side. Beyond a dozen spacings there are
   // thousands of samples to look at, and none knows better.
   constexpr float farthest_in_spacings = 12;
   const SampleModel& model = measures.model;
   if (measures.trusts_all || measures.grid.empty()) return {};
-  std::vector<float> reach(model.noise.size());
-  for (std::size_t i = 0; i < reach.size(); ++i)
-    if (measures.grid[i] >= model.spacing[i])
-      reach[i] = std::min(farthest_in_spacings * model.spacing[i], 2 * measures.grid[i]);
+  SampleLengths reach(model.noise.size());
+  for (SampleIndex s{0}; s.value < reach.size(); ++s.value)
+    if (measures.grid[s] >= model.spacing[s])
+      reach[s] = std::min(farthest_in_spacings * model.spacing[s], 2 * measures.grid[s]);
   return reach;
 }
 
@@ -45,12 +45,12 @@ SampleMeasures measure(const PointCloud& cloud, const Samples& samples, const Op
         resolve_grid_spacing(options.grid_spacing, samples, cloud.points, cloud.scan_index, threads);
   if (paper) {
     if (measures.scan_grid_spacing > 0)
-      measures.grid.assign(samples.positions.size(), static_cast<float>(measures.scan_grid_spacing));
+      measures.grid = SampleLengths(samples.positions.size(), static_cast<float>(measures.scan_grid_spacing));
     return measures;
   }
   if (std::none_of(model.noise.begin(), model.noise.end(), [](float sigma) { return sigma > 0; })) return measures;
   measures.grid = model.noise;
-  for (float& length : measures.grid) length *= grid_spacing_in_deviations;
+  for (float& length : measures.grid.raw()) length *= grid_spacing_in_deviations;
   return measures;
 }
 

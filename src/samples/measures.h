@@ -18,16 +18,16 @@ struct SampleMeasures {
   double scan_grid_spacing = 0; ///< the one ℓ that was given, or that of merged scans; 0: none
   /// ℓ of §3.3 at every sample: with the paper's weights the one of the scans, else 1.2 deviations of the noise; empty
   /// where there is none.
-  std::vector<float> grid;
+  SampleLengths grid;
 
   /// Those of the model; empty where all are trusted.
-  [[nodiscard]] std::span<const float> isolated() const {
-    return trusts_all ? std::span<const float>{} : std::span<const float>(model.isolated);
+  [[nodiscard]] SampleLengthsView isolated() const {
+    return trusts_all ? SampleLengthsView() : SampleLengthsView(model.isolated);
   }
 };
 
 /// How far each sample looks for its poles; 0 where the noise is below the spacing; empty: nowhere.
-std::vector<float> reach_for_poles(const SampleMeasures& measures);
+SampleLengths reach_for_poles(const SampleMeasures& measures);
 
 /// \param samples of `cloud`
 SampleMeasures measure(const PointCloud& cloud, const Samples& samples, const Options& options, const Threads& threads);

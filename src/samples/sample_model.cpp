@@ -129,7 +129,7 @@ void measure_planes(const PlaceModels& models, std::span<const Vec3> positions, 
         Vec3 place;
         for (std::size_t i = begin; i < end; ++i)
           place = place + (1.0 / static_cast<double>(end - begin)) * positions[i];
-        planes[r] = models.mean_plane(place, static_cast<double>(model.noise[begin]));
+        planes[r] = models.mean_plane(place, static_cast<double>(model.noise.raw()[begin]));
       },
       costly_block);
   if (std::find(noisy.begin(), noisy.end(), 1) != noisy.end()) model.plane = std::move(planes);
@@ -140,25 +140,25 @@ void measure_planes(const PlaceModels& models, std::span<const Vec3> positions, 
 SampleModel sample_model(std::span<const Vec3> positions, std::optional<double> given, const Threads& threads) {
   const PointTree tree(positions);
   SampleModel model;
-  model.spacing = spacings(tree, positions, threads);
-  model.typical_spacing = typical_of(model.spacing);
+  model.spacing = SampleLengths(spacings(tree, positions, threads));
+  model.typical_spacing = typical_of(model.spacing.raw());
   const PlaceModels models(positions, tree);
-  const Places places = measure_places(models, positions, model.spacing, threads);
+  const Places places = measure_places(models, positions, model.spacing.raw(), threads);
   if (places.at.size() >= enough_around)
     model.flat_share = static_cast<double>(std::count_if(places.model.begin(), places.model.end(),
                                                          [](const PlaceModel& m) { return m.is_flat; })) /
                        static_cast<double>(places.at.size());
   const auto [level, noise] = flat_places_around(places, threads);
-  model.noise.resize(positions.size());
-  model.isolated.assign(positions.size(), 0.0f);
+  model.noise = model.isolated = SampleLengths(positions.size(), 0.0f);
   for_each_index(
       threads, positions.size(),
       [&, &level = level, &noise = noise](std::size_t i) {
+        const SampleIndex s{static_cast<std::uint32_t>(i)};
         const std::size_t place = i / samples_per_place;
-        model.noise[i] = given ? static_cast<float>(*given) : noise[place];
-        if (!(static_cast<double>(model.spacing[i]) > isolation * static_cast<double>(level[place]))) return;
-        model.isolated[i] = lonely_radius(tree, positions, positions[i]);
-        if (model.isolated[i] > 0) model.spacing[i] = level[place];
+        model.noise[s] = given ? static_cast<float>(*given) : noise[place];
+        if (!(static_cast<double>(model.spacing[s]) > isolation * static_cast<double>(level[place]))) return;
+        model.isolated[s] = lonely_radius(tree, positions, positions[i]);
+        if (model.isolated[s] > 0) model.spacing[s] = level[place];
       },
       costly_block);
   measure_planes(models, positions, model, threads);

@@ -20,12 +20,12 @@ namespace eigencrust {
 struct SampleModel {
   /// The side of the square that one sample of an even sampling stands for; of isolated samples that of the surface
   /// nearest to them.
-  std::vector<float> spacing;
+  SampleLengths spacing;
   /// Standard deviation of the noise, 0 where there is none to be told from curvature; smooth in space.
-  std::vector<float> noise;
+  SampleLengths noise;
   /// Distance to the 20th nearest sample where a sample is isolated: 2.5 times as lonely as the samples of the
   /// surface nearest to it, and in no flat neighbourhood. 0 for all others.
-  std::vector<float> isolated;
+  SampleLengths isolated;
   /// Where the samples are noisy, see below: the middle of the samples, one for each run of them along the curve.
   /// Empty where there is no such place.
   std::vector<MeanPlane> plane;
@@ -35,14 +35,14 @@ struct SampleModel {
 
   /// How far a sample may be from the surface: a spacing, or what noise explains.
   [[nodiscard]] double tolerance(SampleIndex s) const {
-    return static_cast<double>(std::max(spacing[s.value], noise_bound * noise[s.value]));
+    return static_cast<double>(std::max(spacing[s], noise_bound * noise[s]));
   }
 
   static constexpr std::uint32_t run = 8; ///< longer runs are as wide as the tip of an ear
   /// Is the noise so large beside the spacing that no single sample sees both sides?
   [[nodiscard]] bool is_noisy(SampleIndex s) const {
     constexpr float noisy_in_spacings = 0.6f;
-    return noise[s.value] > noisy_in_spacings * spacing[s.value];
+    return noise[s] > noisy_in_spacings * spacing[s];
   }
 };
 

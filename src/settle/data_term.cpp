@@ -47,8 +47,10 @@ void DataTerms::add_heights(TetrahedronIndex i, DataTerm& sum) const {
   const Vec3 middle = centroid(corners_of(t_, i));
   double height = 0;
   int planes = 0;
-  for (const SampleIndex s : t_.tetrahedra[i]) {
-    if (!has_plane(s) || !planes_.is_near(s, middle)) continue;
+  for (const VertexIndex v : t_.tetrahedra[i]) {
+    if (!has_plane(v)) continue;
+    const SampleIndex s = t_.sample(v);
+    if (!planes_.is_near(s, middle)) continue;
     height += planes_.height(s, middle);
     ++planes;
   }
@@ -66,8 +68,10 @@ void DataTerms::add_lines(TetrahedronIndex i, DataTerm& sum) const {
 DataTerm DataTerms::operator()(TetrahedronIndex i) const {
   DataTerm sum;
   std::optional<Vec3> centre;
-  for (const SampleIndex s : t_.tetrahedra[i]) {
-    if (t_.is_corner(s) || has_plane(s) || (!isolated_.empty() && isolated_[s.value] > 0)) continue;
+  for (const VertexIndex v : t_.tetrahedra[i]) {
+    if (t_.is_corner(v) || has_plane(v)) continue;
+    const SampleIndex s = t_.sample(v);
+    if (!isolated_.empty() && isolated_[s] > 0) continue;
     if (!centre) centre = std::apply(circumcentre, corners_of(t_, i));
     add_ties(s, i, *centre, sum);
   }

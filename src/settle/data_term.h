@@ -31,7 +31,7 @@ class DataTerms {
  public:
   /// \param isolated samples where it is > 0 say nothing; may be empty \param sight may be null
   DataTerms(const Tetrahedralization& tetrahedralization, const Poles& poles, const PoleLabels& labels,
-            const NoisePlanes& planes, std::span<const float> isolated, const SightLabels* sight)
+            const NoisePlanes& planes, SampleLengthsView isolated, const SightLabels* sight)
       : t_(tetrahedralization), poles_(poles), labels_(labels), planes_(planes), isolated_(isolated), sight_(sight) {}
 
   [[nodiscard]] DataTerm operator()(TetrahedronIndex i) const;
@@ -41,13 +41,13 @@ class DataTerms {
   void add_heights(TetrahedronIndex i, DataTerm& sum) const;
   void add_lines(TetrahedronIndex i, DataTerm& sum) const;
   [[nodiscard]] double trust_in(TetrahedronIndex i) const { return static_cast<double>(labels_.trust[i]) / full_trust; }
-  [[nodiscard]] bool has_plane(SampleIndex s) const { return !t_.is_corner(s) && planes_.has(s); }
+  [[nodiscard]] bool has_plane(VertexIndex v) const { return !t_.is_corner(v) && planes_.has(t_.sample(v)); }
 
   const Tetrahedralization& t_;
   const Poles& poles_;
   const PoleLabels& labels_;
   const NoisePlanes& planes_;
-  std::span<const float> isolated_;
+  SampleLengthsView isolated_;
   const SightLabels* sight_;
 };
 

@@ -119,7 +119,7 @@ NoisePlanes::NoisePlanes(const Tetrahedralization& t, const Poles& poles, const 
   plane_.resize(model.plane.size());
   for_each_index(threads, side.size(), [&](std::size_t p) {
     const std::uint32_t r = planes.run[p];
-    const double width = smoothing_in_sigmas * static_cast<double>(model.noise[r * SampleModel::run]);
+    const double width = smoothing_in_sigmas * static_cast<double>(model.noise[SampleIndex{r * SampleModel::run}]);
     if (side[p] != 0) plane_[r] = smoothed(planes, side, p, width);
   });
 }

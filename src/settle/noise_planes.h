@@ -26,12 +26,12 @@ class NoisePlanes {
   /// Is p near enough to the sample's plane for it to know? Beyond, at thin parts, there is another surface.
   [[nodiscard]] bool is_near(SampleIndex s, const Vec3& p) const {
     return distance(p, plane_[s.value / SampleModel::run].mean) <
-           static_cast<double>(2 * noise_bound * model_.noise[s.value]);
+           static_cast<double>(2 * noise_bound * model_.noise[s]);
   }
   /// Height of p over the sample's plane in deviations of the noise, > 0 outside.
   [[nodiscard]] double height(SampleIndex s, const Vec3& p) const {
     const MeanPlane& plane = plane_[s.value / SampleModel::run];
-    return dot(p - plane.mean, plane.normal) / static_cast<double>(model_.noise[s.value]);
+    return dot(p - plane.mean, plane.normal) / static_cast<double>(model_.noise[s]);
   }
 
  private:

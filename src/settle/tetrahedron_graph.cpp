@@ -11,7 +11,7 @@ namespace eigencrust {
 namespace {
 
 /// Longest over shortest edge of the face opposite vertex k: skinny faces resist being cut.
-double face_weight(const Tetrahedralization& t, const std::array<SampleIndex, 4>& v, std::size_t k) {
+double face_weight(const Tetrahedralization& t, const std::array<VertexIndex, 4>& v, std::size_t k) {
   const Vec3 &a = t.positions[v[(k + 1) % 4]], &b = t.positions[v[(k + 2) % 4]], &c = t.positions[v[(k + 3) % 4]];
   const double ab = squared_norm(a - b), bc = squared_norm(b - c), ca = squared_norm(c - a);
   // Sums of weights stay numbers, in 32 bits, where one edge is 1e40 times as long as another.

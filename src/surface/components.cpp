@@ -49,7 +49,7 @@ void measure(const Surface& surface, const SampleModel& model, std::uint32_t num
   const auto count = static_cast<double>(piece.vertices.size());
   for (const std::uint32_t v : piece.vertices) {
     piece.centre = piece.centre + (1 / count) * surface.mesh.vertices[v];
-    const std::uint32_t s = surface.sample_of[v].value;
+    const SampleIndex s = surface.sample_of[v];
     if (!model.isolated.empty() && model.isolated[s] > 0) piece.isolated += 1 / count;
   }
 }

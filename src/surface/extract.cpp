@@ -23,10 +23,10 @@ Faces faces_of(const Tetrahedralization& t, const Labels& labels, std::size_t be
     for (std::size_t k = 0; k < 4; ++k) {
       const TetrahedronIndex n = t.neighbours.raw()[i][k];
       if (!n.valid() || labels[n] != Label::outside) continue;
-      const std::array<SampleIndex, 3> triangle{v[face_opposite[k][0]], v[face_opposite[k][1]], v[face_opposite[k][2]]};
+      const VertexIndex a = v[face_opposite[k][0]], b = v[face_opposite[k][1]], c = v[face_opposite[k][2]];
       // Only with a façade can inside reach the cube; such triangles are trimmed (§3.1).
-      if (t.is_corner(triangle[0]) || t.is_corner(triangle[1]) || t.is_corner(triangle[2])) continue;
-      faces.triangles.push_back(triangle);
+      if (t.is_corner(a) || t.is_corner(b) || t.is_corner(c)) continue;
+      faces.triangles.push_back({t.sample(a), t.sample(b), t.sample(c)});
       faces.inside.push_back(TetrahedronIndex{static_cast<std::uint32_t>(i)});
     }
   }
@@ -41,7 +41,7 @@ Surface extract_surface(const Tetrahedralization& t, const Labels& labels, const
   for_blocks(threads, n, default_block,
              [&](std::size_t begin, std::size_t end, std::size_t b) { blocks[b] = faces_of(t, labels, begin, end); });
   std::vector<std::size_t> first(blocks.size() + 1, 0);
-  IndexedArray<SampleIndex, std::uint32_t> vertex_of(t.positions.size(), SampleIndex::none);
+  IndexedArray<SampleIndex, std::uint32_t> vertex_of(t.sample_count, SampleIndex::none);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     first[b + 1] = first[b] + blocks[b].triangles.size();
     for (const auto& triangle : blocks[b].triangles)

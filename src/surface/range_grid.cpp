@@ -19,25 +19,25 @@ RangeGrid::RangeGrid(const PointCloud& cloud, std::span<const SampleIndex> sampl
                      std::span<const SightLine> lines)
     : t_(&t) {
   if (cloud.cell.empty()) return;
-  pixel_.resize(t.sample_count);
+  pixel_ = IndexedArray<SampleIndex, Pixel>(t.sample_count);
   for (const SightLine& line : lines) {
     const Vec3 way = line.target - t.positions[line.sample];
     const double length = norm(way);
-    if (length > 0) pixel_[line.sample.value].towards = (1 / length) * way;
+    if (length > 0) pixel_[line.sample].towards = (1 / length) * way;
   }
   for (std::size_t row = 0; row < sample_of_row.size(); ++row) {
     const SampleIndex s = sample_of_row[row];
     const std::uint32_t scan = cloud.scan_index.empty() ? 0 : cloud.scan_index[row];
-    if (!s.valid() || cloud.cell[row] == no_index || pixel_[s.value].towards == Vec3{}) continue;
+    if (!s.valid() || cloud.cell[row] == no_index || pixel_[s].towards == Vec3{}) continue;
     const auto columns = cloud.grids[scan].columns;
-    pixel_[s.value].scan = scan;
-    pixel_[s.value].row = static_cast<std::int32_t>(cloud.cell[row] / columns);
-    pixel_[s.value].column = static_cast<std::int32_t>(cloud.cell[row] % columns);
+    pixel_[s].scan = scan;
+    pixel_[s].row = static_cast<std::int32_t>(cloud.cell[row] / columns);
+    pixel_[s].column = static_cast<std::int32_t>(cloud.cell[row] % columns);
   }
 }
 
 Between RangeGrid::between(SampleIndex a, SampleIndex b) const {
-  const Pixel &p = pixel_[a.value], &q = pixel_[b.value];
+  const Pixel &p = pixel_[a], &q = pixel_[b];
   if (p.scan == no_index || p.scan != q.scan) return Between::unknown;
   const std::int32_t rows = std::abs(p.row - q.row), columns = std::abs(p.column - q.column);
   if (rows > reach || columns > reach) return Between::unknown;

@@ -38,7 +38,7 @@ class RangeGrid {
   [[nodiscard]] Between between(SampleIndex a, SampleIndex b) const;
 
   const Tetrahedralization* t_ = nullptr;
-  std::vector<Pixel> pixel_; ///< of each sample; empty: no grid is known
+  IndexedArray<SampleIndex, Pixel> pixel_; ///< of each sample; empty: no grid is known
 };
 
 } // namespace eigencrust

@@ -27,7 +27,7 @@ TetrahedronIndex outside_of(const Surface& surface, std::size_t triangle, const 
 }
 
 void measure_support(const Tetrahedralization& t, const TetrahedronLabels& labels, const SampleModel& model,
-                     std::span<const float> grid_spacing, Surface& surface, const Threads& threads) {
+                     SampleLengthsView grid_spacing, Surface& surface, const Threads& threads) {
   surface.support.resize(surface.mesh.triangles.size());
   for_each_index(threads, surface.support.size(), [&](std::size_t i) {
     std::array<SampleIndex, 3> v;
@@ -35,8 +35,8 @@ void measure_support(const Tetrahedralization& t, const TetrahedronLabels& label
     double longest = 0, mean = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       longest = std::max(longest, distance(t.positions[v[k]], t.positions[v[(k + 1) % 3]]));
-      float scale = model.spacing[v[k].value];
-      if (!grid_spacing.empty()) scale = std::max(scale, grid_spacing[v[k].value]);
+      float scale = model.spacing[v[k]];
+      if (!grid_spacing.empty()) scale = std::max(scale, grid_spacing[v[k]]);
       mean += static_cast<double>(scale) / static_cast<double>(v.size());
     }
     const TetrahedronIndex inside = surface.inside[i], outside = outside_of(surface, i, t);

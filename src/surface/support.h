@@ -17,7 +17,7 @@ TetrahedronIndex outside_of(const Surface& surface, std::size_t triangle, const 
 /// them) or of the grid spacing ℓ if that is larger, and c the contrast |x_out - x_in| of the second stage's values
 /// across it (not in the paper).
 void measure_support(const Tetrahedralization& tetrahedralization, const TetrahedronLabels& labels,
-                     const SampleModel& model, std::span<const float> grid_spacing, Surface& surface,
+                     const SampleModel& model, SampleLengthsView grid_spacing, Surface& surface,
                      const Threads& threads);
 
 } // namespace eigencrust

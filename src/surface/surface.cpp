@@ -54,14 +54,14 @@ void require_samples_near(const Surface& surface, const Scene& scene, const Thre
 SamplesApart samples_apart(const Surface& surface, const Scene& scene, const Threads& threads) {
   const Tetrahedralization& t = scene.tetrahedralization;
   const SampleModel& model = scene.measures.model;
-  std::vector<std::uint8_t> on_surface(t.positions.size(), 0);
-  for (const SampleIndex s : surface.sample_of) on_surface[s.value] = 1;
+  IndexedArray<VertexIndex, std::uint8_t> on_surface(t.positions.size(), 0);
+  for (const SampleIndex s : surface.sample_of) on_surface[s] = 1;
   const auto is_apart = [&](SampleIndex s) {
-    if (on_surface[s.value] || model.isolated[s.value] > 0 || model.is_noisy(s)) return false;
+    if (on_surface[s] || model.isolated[s] > 0 || model.is_noisy(s)) return false;
     const auto star = scene.stars[s];
     return std::none_of(star.begin(), star.end(), [&](TetrahedronIndex i) {
-      return std::any_of(t.tetrahedra[i].begin(), t.tetrahedra[i].end(), [&](SampleIndex n) {
-        return on_surface[n.value] && distance(t.positions[n], t.positions[s]) <= model.tolerance(s);
+      return std::any_of(t.tetrahedra[i].begin(), t.tetrahedra[i].end(), [&](VertexIndex n) {
+        return on_surface[n] && distance(t.positions[n], t.positions[s]) <= model.tolerance(s);
       });
     });
   };
@@ -82,7 +82,7 @@ void require_trimmed(const Surface& surface) {
 /// The lines of all samples, also of isolated ones.
 std::vector<SightLine> rays_of(const PointCloud& cloud, const Scene& scene) {
   const Tetrahedralization& t = scene.tetrahedralization;
-  return sight_lines(cloud, scene.sample_of_row, t, std::vector<float>(t.sample_count, 0), {});
+  return sight_lines(cloud, scene.sample_of_row, t, SampleLengths(t.sample_count, 0), {});
 }
 
 } // namespace
@@ -92,7 +92,7 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   const auto& [options, run, threads] = context;
   const Tetrahedralization& t = scene.tetrahedralization;
   const SampleModel& model = scene.measures.model;
-  const std::vector<float>& grid = scene.measures.grid;
+  const SampleLengths& grid = scene.measures.grid;
   Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels(), threads); });
   run.product("surface", [&] { return snapshot_of_surface(t, surface); });
   run.stage("support", [&] { measure_support(t, labels, model, grid, surface, threads); });

@@ -90,7 +90,7 @@ std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& t, con
     for (std::size_t k = 0; k < 3; ++k) {
       const SampleIndex s = samples[k] = surface.sample_of[surface.mesh.triangles[i][k]];
       longest = std::max(longest, distance(p[k], p[(k + 1) % 3]));
-      spacing = std::min(spacing, static_cast<double>(model.spacing[s.value]));
+      spacing = std::min(spacing, static_cast<double>(model.spacing[s]));
     }
     const Between between = grid.empty() ? Between::unknown : grid.between(samples);
     unsupported[i] = between == Between::jump || longest > longest_kept * spacing ||

@@ -37,7 +37,7 @@ constexpr double cube_half_side_in_diagonals = 10;
 constexpr std::uint32_t samples_between_looks = 32;
 
 /// The corners of the cube, then the samples in rounds along the Hilbert curve.
-void insert_all(Delaunay& delaunay, const IndexedArray<SampleIndex, Vec3>& positions, std::uint32_t samples,
+void insert_all(Delaunay& delaunay, const IndexedArray<VertexIndex, Vec3>& positions, std::uint32_t samples,
                 const WatchGrowth& watch) {
   Delaunay::Cell_handle hint;
   std::uint32_t done = 0;
@@ -87,7 +87,7 @@ void copy_cells(Delaunay& delaunay, Tetrahedralization& result, const Threads& t
     for (std::size_t k = 0; k < 4; ++k) v[k] = c->vertex(static_cast<int>(k))->info();
     const std::array<std::size_t, 4> order = canonical_order(v);
     for (std::size_t k = 0; k < 4; ++k) {
-      tetrahedra[i][k] = SampleIndex{v[order[k]]};
+      tetrahedra[i][k] = VertexIndex{v[order[k]]};
       neighbours[i][k] = TetrahedronIndex{c->neighbor(static_cast<int>(order[k]))->info()};
     }
   });
@@ -108,7 +108,7 @@ void sort_tetrahedra(Tetrahedralization& t, const Threads& threads) {
   const std::vector<std::uint32_t> order = sorted_order(t, threads);
   std::vector<std::uint32_t> rank(order.size());
   for_each_index(threads, order.size(), [&](std::size_t i) { rank[order[i]] = static_cast<std::uint32_t>(i); });
-  std::vector<std::array<SampleIndex, 4>> tetrahedra(order.size());
+  std::vector<std::array<VertexIndex, 4>> tetrahedra(order.size());
   for_each_index(threads, order.size(), [&](std::size_t i) { tetrahedra[i] = t.tetrahedra.raw()[order[i]]; });
   t.tetrahedra.raw() = std::move(tetrahedra);
   std::vector<std::array<TetrahedronIndex, 4>> neighbours(order.size());
@@ -135,7 +135,7 @@ Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const
   Tetrahedralization result;
   result.origin = samples.origin;
   result.sample_count = samples.positions.size();
-  result.positions = std::move(samples.positions);
+  result.positions.raw() = std::move(samples.positions.raw());
   result.source = std::move(samples.source);
   const double h = cube_half_side_in_diagonals * samples.bounds.diagonal();
   const Vec3 middle = samples.bounds.centre() - samples.origin;

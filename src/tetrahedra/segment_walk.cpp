@@ -16,7 +16,7 @@ double largest(const Vec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y),
 
 } // namespace
 
-SegmentWalk::SegmentWalk(const Tetrahedralization& t, const VertexStars& stars, SampleIndex from, const Vec3& target)
+SegmentWalk::SegmentWalk(const Tetrahedralization& t, const VertexStars& stars, VertexIndex from, const Vec3& target)
     : t_(t),
       stars_(stars),
       from_(from),
@@ -26,9 +26,9 @@ SegmentWalk::SegmentWalk(const Tetrahedralization& t, const VertexStars& stars, 
       length_(norm(direction_)),
       size_(largest(direction_)) {}
 
-SegmentWalk::Corner SegmentWalk::corner(SampleIndex sample) const {
-  const Vec3 offset = t_.positions[sample] - start_;
-  return {sample, offset, largest(offset), 0, false};
+SegmentWalk::Corner SegmentWalk::corner(VertexIndex vertex) const {
+  const Vec3 offset = t_.positions[vertex] - start_;
+  return {vertex, offset, largest(offset), 0, false};
 }
 
 /// What only corners of faces that the segment leaves through need.
@@ -45,12 +45,12 @@ SegmentWalk::Turn SegmentWalk::turn(const Corner& p, const Corner& q) const {
   // Where products underflow the bound says nothing.
   if (bound > std::sqrt(std::numeric_limits<double>::min()) && std::fabs(value) > bound)
     return {value, value > 0 ? 1 : -1};
-  return {value, orientation(start_, t_.positions[p.sample], t_.positions[q.sample], target_)};
+  return {value, orientation(start_, t_.positions[p.vertex], t_.positions[q.vertex], target_)};
 }
 
 int SegmentWalk::perturbed(const Turn& turn, const Corner& p, const Corner& q) const {
   // The determinant is linear in the target; its derivatives are the components of the normal.
-  return turn.sign != 0 ? turn.sign : normal_sign(start_, t_.positions[p.sample], t_.positions[q.sample]);
+  return turn.sign != 0 ? turn.sign : normal_sign(start_, t_.positions[p.vertex], t_.positions[q.vertex]);
 }
 
 bool SegmentWalk::next() {
@@ -103,7 +103,7 @@ bool SegmentWalk::begin() {
 
 bool SegmentWalk::ends_before_face() const {
   if (face_[0].before && face_[1].before && face_[2].before) return false;
-  return orientation(t_.positions[face_[0].sample], t_.positions[face_[1].sample], t_.positions[face_[2].sample],
+  return orientation(t_.positions[face_[0].vertex], t_.positions[face_[1].vertex], t_.positions[face_[2].vertex],
                      target_) <= 0;
 }
 
@@ -137,7 +137,7 @@ bool SegmentWalk::step() {
   current_ = beyond_;
   const auto& v = t_.tetrahedra[current_];
   std::size_t k = 0;
-  while (v[k] == face_[0].sample || v[k] == face_[1].sample || v[k] == face_[2].sample) ++k;
+  while (v[k] == face_[0].vertex || v[k] == face_[1].vertex || v[k] == face_[2].vertex) ++k;
   Corner apex = corner(v[k]);
   project(apex);
   std::array<Turn, 3> turns;
@@ -151,7 +151,7 @@ bool SegmentWalk::step() {
   if (side > 0 && perturbed(turns[1], apex, face_[1]) < 0) first = 0;
   if (side < 0 && perturbed(turns[2], apex, face_[2]) > 0) first = 2;
   const std::size_t second = (first + 1) % 3, left_out = (first + 2) % 3;
-  const auto place = static_cast<std::size_t>(std::find(v.begin(), v.end(), face_[left_out].sample) - v.begin());
+  const auto place = static_cast<std::size_t>(std::find(v.begin(), v.end(), face_[left_out].vertex) - v.begin());
   beyond_ = t_.neighbours[current_][place];
   face_ = {face_[first], face_[second], apex};
   const Turn base = edge_[left_out]; // of first and second

@@ -18,7 +18,7 @@ class SegmentWalk {
  public:
   /// \param target relative to the origin of `tetrahedralization`; there is nothing to visit when it is the sample's
   ///        own place
-  SegmentWalk(const Tetrahedralization& tetrahedralization, const VertexStars& stars, SampleIndex from,
+  SegmentWalk(const Tetrahedralization& tetrahedralization, const VertexStars& stars, VertexIndex from,
               const Vec3& target);
 
   /// Goes on to the next tetrahedron, at first to the one at the sample. \return false: there is none
@@ -32,7 +32,7 @@ class SegmentWalk {
 
  private:
   struct Corner {
-    SampleIndex sample;
+    VertexIndex vertex;
     Vec3 offset;         ///< from the first sample
     double size = 0;     ///< largest coordinate of the offset
     double along = 0;    ///< dot(offset, direction)
@@ -44,7 +44,7 @@ class SegmentWalk {
     int sign = 0;
   };
 
-  [[nodiscard]] Corner corner(SampleIndex sample) const;
+  [[nodiscard]] Corner corner(VertexIndex vertex) const;
   void project(Corner& corner) const;
   [[nodiscard]] Turn turn(const Corner& p, const Corner& q) const;
   /// The sign after the infinitesimal turn; 0 only if the sample, p and q are collinear.
@@ -58,7 +58,7 @@ class SegmentWalk {
 
   const Tetrahedralization& t_;
   const VertexStars& stars_;
-  SampleIndex from_;
+  VertexIndex from_;
   Vec3 start_, target_, direction_;
   double length_ = 0, size_ = 0, entry_ = 0, exit_ = 0;
   TetrahedronIndex current_, beyond_; ///< beyond_: across the face through which the segment leaves current_

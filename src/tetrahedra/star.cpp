@@ -5,7 +5,7 @@
 
 namespace eigencrust {
 
-void Star::fill(SampleIndex sample) {
+void Star::fill(VertexIndex sample) {
   tetrahedra_ = stars_[sample];
   others_.resize(tetrahedra_.size());
   neighbours_.resize(tetrahedra_.size());
@@ -23,7 +23,7 @@ void Star::fill(SampleIndex sample) {
   }
 }
 
-std::uint32_t Star::components(const Labels& labels, Label label, SampleIndex edge,
+std::uint32_t Star::components(const Labels& labels, Label label, VertexIndex edge,
                                std::vector<std::uint32_t>& component) {
   const auto at_edge = [&](std::uint32_t i) {
     return !edge.valid() || std::find(others_[i].begin(), others_[i].end(), edge) != others_[i].end();

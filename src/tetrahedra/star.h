@@ -17,23 +17,23 @@ class Star {
   Star(const Tetrahedralization& tetrahedralization, const VertexStars& stars)
       : t_(tetrahedralization), stars_(stars) {}
 
-  void fill(SampleIndex sample);
+  void fill(VertexIndex sample);
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(tetrahedra_.size()); }
   [[nodiscard]] TetrahedronIndex operator[](std::uint32_t i) const { return tetrahedra_[i]; }
   /// The other three vertices; neighbour k lies across the face of the sample and the two others.
-  [[nodiscard]] const std::array<SampleIndex, 3>& others(std::uint32_t i) const { return others_[i]; }
+  [[nodiscard]] const std::array<VertexIndex, 3>& others(std::uint32_t i) const { return others_[i]; }
   [[nodiscard]] const std::array<std::uint32_t, 3>& neighbours(std::uint32_t i) const { return neighbours_[i]; }
 
   /// Numbers the face-connected sets of tetrahedra with equal `label`; component[i] is no_index for
   /// other labels. With `edge` valid only tetrahedra at that edge count, joined across faces that hold
   /// it. \return how many sets
-  std::uint32_t components(const Labels& labels, Label label, SampleIndex edge, std::vector<std::uint32_t>& component);
+  std::uint32_t components(const Labels& labels, Label label, VertexIndex edge, std::vector<std::uint32_t>& component);
 
  private:
   const Tetrahedralization& t_;
   const VertexStars& stars_;
   std::span<const TetrahedronIndex> tetrahedra_;
-  std::vector<std::array<SampleIndex, 3>> others_;
+  std::vector<std::array<VertexIndex, 3>> others_;
   std::vector<std::array<std::uint32_t, 3>> neighbours_;
   std::vector<std::uint32_t> stack_;
 };

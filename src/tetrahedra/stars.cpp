@@ -9,7 +9,7 @@ namespace eigencrust {
 VertexStars vertex_stars(const Tetrahedralization& t, const Threads&) {
   auto rows = build_rows<TetrahedronIndex>(t.positions.size(), [&](auto&& visit) {
     for (TetrahedronIndex i{0}; i.value < t.tetrahedra.size(); ++i.value)
-      for (const SampleIndex s : t.tetrahedra[i]) visit(s.value, i);
+      for (const VertexIndex s : t.tetrahedra[i]) visit(s.value, i);
   });
   return {std::move(rows.begin), std::move(rows.item)};
 }

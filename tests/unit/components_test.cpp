@@ -25,8 +25,8 @@ struct ThreePieces {
     labels = Labels(p.t.tetrahedra.size(), Label::outside);
     for (std::uint32_t i = 0; i < labels.size(); ++i) {
       double longest = 0;
-      for (const SampleIndex a : p.t.tetrahedra.raw()[i])
-        for (const SampleIndex b : p.t.tetrahedra.raw()[i])
+      for (const VertexIndex a : p.t.tetrahedra.raw()[i])
+        for (const VertexIndex b : p.t.tetrahedra.raw()[i])
           longest = std::max(longest, distance(p.t.positions[a], p.t.positions[b]));
       if (longest < 10) labels.raw()[i] = Label::inside;
     }

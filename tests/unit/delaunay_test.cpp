@@ -19,8 +19,8 @@ Tetrahedralization delaunay_of(const Points& points, unsigned threads = 1) {
   return tetrahedralize(prepare_samples(points, team), team);
 }
 
-std::set<SampleIndex> face(const Tetrahedralization& t, TetrahedronIndex i, std::size_t k) {
-  std::set<SampleIndex> vertices(t.tetrahedra[i].begin(), t.tetrahedra[i].end());
+std::set<VertexIndex> face(const Tetrahedralization& t, TetrahedronIndex i, std::size_t k) {
+  std::set<VertexIndex> vertices(t.tetrahedra[i].begin(), t.tetrahedra[i].end());
   vertices.erase(t.tetrahedra[i][k]);
   return vertices;
 }
@@ -54,7 +54,7 @@ void expect_neighbours_agree(const Tetrahedralization& t) {
       const TetrahedronIndex self{i}, n = t.neighbours[self][k];
       const auto shared = face(t, self, k);
       if (!n.valid()) {
-        for (const SampleIndex s : shared) ASSERT_TRUE(t.is_corner(s));
+        for (const VertexIndex s : shared) ASSERT_TRUE(t.is_corner(s));
         continue;
       }
       const auto& back = t.neighbours[n];
@@ -114,7 +114,7 @@ TEST(Delaunay, CubeIsTenDiagonalsWide) {
   const Tetrahedralization t = delaunay_of(clouds::lattice(3, 3, 3));
   for (std::uint32_t i = t.sample_count; i < t.positions.size(); ++i) {
     const Vec3& p = t.positions.raw()[i];
-    EXPECT_TRUE(t.is_corner(SampleIndex{i}));
+    EXPECT_TRUE(t.is_corner(VertexIndex{i}));
     for (const double c : {p.x, p.y, p.z}) EXPECT_DOUBLE_EQ(std::fabs(c), 10 * std::sqrt(12.0));
   }
 }
@@ -154,9 +154,9 @@ TEST(VertexStars, HoldEveryTetrahedronOfTheVertexInOrder) {
     std::vector<TetrahedronIndex> expected;
     for (std::uint32_t i = 0; i < t.tetrahedra.size(); ++i) {
       const auto& v = t.tetrahedra.raw()[i];
-      if (std::find(v.begin(), v.end(), SampleIndex{s}) != v.end()) expected.push_back(TetrahedronIndex{i});
+      if (std::find(v.begin(), v.end(), VertexIndex{s}) != v.end()) expected.push_back(TetrahedronIndex{i});
     }
-    EXPECT_THAT(stars[SampleIndex{s}], testing::ElementsAreArray(expected));
+    EXPECT_THAT(stars[VertexIndex{s}], testing::ElementsAreArray(expected));
     EXPECT_FALSE(expected.empty());
   }
 }

@@ -12,7 +12,7 @@ using clouds::Points;
 using clouds::Prepared;
 
 double beta_by_hand(const Tetrahedralization& t, TetrahedronIndex i, std::size_t k) {
-  const auto cosine = [&](TetrahedronIndex at, const std::array<SampleIndex, 3>& face) {
+  const auto cosine = [&](TetrahedronIndex at, const std::array<VertexIndex, 3>& face) {
     const auto& v = t.tetrahedra[at];
     const Vec3 c = circumcentre(t.positions[v[0]], t.positions[v[1]], t.positions[v[2]], t.positions[v[3]]);
     const Vec3& a = t.positions[face[0]];
@@ -22,7 +22,7 @@ double beta_by_hand(const Tetrahedralization& t, TetrahedronIndex i, std::size_t
     return dot(n, c - a) / distance(c, t.positions[v[0]]);
   };
   const auto& v = t.tetrahedra[i];
-  const std::array<SampleIndex, 3> face{v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]};
+  const std::array<VertexIndex, 3> face{v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]};
   return 0.01 + 1 - std::min(cosine(i, face), cosine(t.neighbours[i][k], face));
 }
 
@@ -164,7 +164,7 @@ TEST(DataTerms, TiesPointToTheTrueSide) {
   PoleLabels distrusted = labels;
   std::fill(distrusted.trust.raw().begin(), distrusted.trust.raw().end(), std::uint8_t{0});
   const DataTerms silent(p.t, p.poles, distrusted, planes, {}, nullptr);
-  const std::vector<float> isolated(p.t.sample_count, 1.0f);
+  const SampleLengths isolated(p.t.sample_count, 1.0f);
   const DataTerms alone(p.t, p.poles, labels, planes, isolated, nullptr);
   for (TetrahedronIndex i{0}; i.value < p.known.size(); ++i.value) {
     EXPECT_EQ(silent(i).inside + silent(i).outside, 0);
@@ -183,7 +183,7 @@ TEST(DataTerms, LinesOfSightCount) {
   const NoisePlanes planes(p.t, p.poles, labels.labels, model, Threads(1));
   SightLabels sight;
   sight.front = sight.behind = IndexedArray<TetrahedronIndex, std::uint8_t>(p.known.size());
-  const std::vector<float> isolated(p.t.sample_count, 1.0f); // nothing else speaks
+  const SampleLengths isolated(p.t.sample_count, 1.0f); // nothing else speaks
   const DataTerms data(p.t, p.poles, labels, planes, isolated, &sight);
   const TetrahedronIndex i{static_cast<std::uint32_t>(p.known.size() / 2)};
   EXPECT_EQ(data(i).outside, 0);

@@ -145,7 +145,7 @@ TEST(KnownLabels, FacadeHasAFrontAndABack) {
     std::size_t inside = 0;
     for (std::uint32_t i = 0; i < p.t.tetrahedra.size(); ++i) {
       bool front = false;
-      for (const SampleIndex s : p.t.tetrahedra.raw()[i])
+      for (const VertexIndex s : p.t.tetrahedra.raw()[i])
         front = front || (p.t.is_corner(s) && dot(direction, p.t.positions[s]) > 0);
       const Label expected = !p.t.touches_cube(TetrahedronIndex{i}) ? Label::unlabelled
                              : front                                ? Label::outside
@@ -172,7 +172,7 @@ TEST(SampleModel, OnlyTheLonelySampleIsIsolated) {
   const clouds::Prepared p = clouds::prepare(points);
   const SampleModel model =
       sample_model(std::span(p.t.positions.raw()).first(p.t.sample_count), std::nullopt, Threads(2));
-  const std::vector<float>& radius = model.isolated;
+  const std::vector<float>& radius = model.isolated.raw();
   ASSERT_EQ(radius.size(), points.size());
   ASSERT_EQ(model.spacing.size(), points.size());
   EXPECT_NEAR(model.typical_spacing, 1, 0.2); // at the rim twelve neighbours reach farther

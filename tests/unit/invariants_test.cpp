@@ -21,9 +21,9 @@ struct Stage {
   Stage() {
     clouds::Prepared p = clouds::prepare(cloud.points);
     scene.measures.model = sample_model(p.t.positions.raw(), 0.0, Threads(1));
-    scene.measures.model.spacing.resize(p.t.sample_count);
-    scene.measures.model.noise.resize(p.t.sample_count);
-    scene.measures.model.isolated.resize(p.t.sample_count);
+    scene.measures.model.spacing.raw().resize(p.t.sample_count);
+    scene.measures.model.noise.raw().resize(p.t.sample_count);
+    scene.measures.model.isolated.raw().resize(p.t.sample_count);
     evidence.named = evidence.labels = p.known;
     scene.tetrahedralization = std::move(p.t);
     scene.sample_of_row = std::move(p.sample_of_row);
@@ -60,11 +60,11 @@ TEST(Invariants, OfTheScene) {
                 std::swap(s.tetrahedralization.neighbours.raw()[9][0], s.tetrahedralization.neighbours.raw()[9][1]);
               }),
               HasSubstr("no neighbour of its own"));
-  EXPECT_THAT(fault_after([](Scene& s) { ++s.stars.begin[4]; }), HasSubstr("the star of sample 3"));
+  EXPECT_THAT(fault_after([](Scene& s) { ++s.stars.begin[4]; }), HasSubstr("the star of vertex 3"));
   EXPECT_THAT(fault_after([](Scene& s) { std::swap(s.stars.tetrahedra[0], s.stars.tetrahedra[1]); }),
               HasSubstr("out of order"));
   EXPECT_THAT(fault_after([](Scene& s) { s.poles.of_sample.raw()[0].first.value = 1u << 30; }), HasSubstr("pole"));
-  EXPECT_THAT(fault_after([](Scene& s) { s.measures.model.spacing[8] = 0; }), HasSubstr("sample 8"));
+  EXPECT_THAT(fault_after([](Scene& s) { s.measures.model.spacing[SampleIndex{8}] = 0; }), HasSubstr("sample 8"));
 }
 
 TEST(Invariants, OfTheEvidence) {

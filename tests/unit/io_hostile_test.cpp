@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
-
 #include <eigencrust/io.h>
 
 #include "e57_bytes.h"
@@ -167,9 +165,9 @@ TEST_F(IoHostile, ChangedBytes) {
   EXPECT_GT(errors_, 1000);
 }
 
-// Small files that ask for much: time and memory must follow the size of the file.
+// Small files that ask for much: time and memory must follow the size of the file. Where they do not, this test takes
+// longer than it may, or more memory than there is.
 TEST_F(IoHostile, SmallFilesThatAskForMuch) {
-  const auto start = std::chrono::steady_clock::now();
   const std::string ply = "ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\nproperty int y\nproperty int z\n";
   std::string names, scans, letters, indices, uv;
   for (int i = 0; i < 30000; ++i) {
@@ -188,7 +186,6 @@ TEST_F(IoHostile, SmallFilesThatAskForMuch) {
            "element face 1\nproperty list int int vertex_indices\nproperty list int int uv\nend_header\n1 2 3\n30000" +
            indices + " 30000" + uv + "\n",
        " a long polygon");
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 
 } // namespace

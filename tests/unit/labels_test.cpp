@@ -166,16 +166,14 @@ TEST(LabelPoles, FreeComponentsAreLeftOpen) {
 TEST(Questionable, TetrahedraHaveAllEdgesBelowFourGridSpacings) {
   const Prepared p = clouds::prepare(clouds::random_box(200, 10));
   const double spacing = 0.125; // exact as a float
-  const auto everywhere = [&](double length) {
-    return std::vector<float>(p.t.positions.size(), static_cast<float>(length));
-  };
+  const auto everywhere = [&](double length) { return SampleLengths(p.t.sample_count, static_cast<float>(length)); };
   const std::vector<std::uint8_t> flags = questionable_tetrahedra(p.t, everywhere(spacing), Threads(2));
   ASSERT_EQ(flags.size(), p.t.tetrahedra.size());
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < flags.size(); ++i) {
     double longest = 0;
-    for (const SampleIndex a : p.t.tetrahedra.raw()[i])
-      for (const SampleIndex b : p.t.tetrahedra.raw()[i])
+    for (const VertexIndex a : p.t.tetrahedra.raw()[i])
+      for (const VertexIndex b : p.t.tetrahedra.raw()[i])
         longest = std::max(longest, distance(p.t.positions[a], p.t.positions[b]));
     EXPECT_EQ(flags[i] != 0, longest < 4 * spacing && !p.t.touches_cube(TetrahedronIndex{i}));
     count += flags[i];

@@ -30,7 +30,7 @@ PointCloud seen_from(const Points& points, const Sensor& sensor, std::size_t row
   return cloud;
 }
 
-std::vector<float> depths(const Prepared& p, float depth) { return std::vector<float>(p.t.sample_count, depth); }
+SampleLengths depths(const Prepared& p, float depth) { return SampleLengths(p.t.sample_count, depth); }
 
 TEST(SightLines, EndAtTheSensorOrBeyondTheSamples) {
   const Points points = clouds::random_box(30, 1);
@@ -70,9 +70,9 @@ TEST(SightLines, DuplicatesCountOncePerSensorAndIsolatedSamplesNot) {
   cloud.sensor_of.assign(points.size(), 0);
   cloud.sensor_of[20] = 1;
   EXPECT_EQ(sight_lines(cloud, p.sample_of_row, p.t, depths(p, 0), {}).size(), 21u);
-  std::vector<float> isolated(p.t.sample_count, 0.0f);
+  SampleLengths isolated(p.t.sample_count, 0.0f);
   for (std::uint32_t s = 0; s < p.t.sample_count; ++s)
-    if (p.t.source.raw()[s] == 4) isolated[s] = 1;
+    if (p.t.source.raw()[s] == 4) isolated[SampleIndex{s}] = 1;
   EXPECT_EQ(sight_lines(cloud, p.sample_of_row, p.t, depths(p, 0), isolated).size(), 19u);
   cloud.sensor_of.clear();
   EXPECT_TRUE(sight_lines(cloud, p.sample_of_row, p.t, depths(p, 0), {}).empty());
@@ -99,7 +99,7 @@ TEST(SightCrossings, BeginBeyondTheDepthAndStayAwayFromSamples) {
       deep.push_back(walk.tetrahedron());
       const Vec3 middle = from + (0.5 * (walk.depth() + walk.exit_depth())) * direction;
       double nearest = 1e9;
-      for (const SampleIndex v : p.t.tetrahedra[walk.tetrahedron()])
+      for (const VertexIndex v : p.t.tetrahedra[walk.tetrahedron()])
         nearest = std::min(nearest, distance(p.t.positions[v], middle));
       if (nearest > 1.5)
         away.push_back(walk.tetrahedron());
@@ -200,7 +200,7 @@ TEST(LineOfSight, InsideIsWhatManySamplesLieInFrontOf) {
   const SightCrossings crossings = sight_crossings(p.t, p.stars, lines, Weights::evidence, p.known, Threads(1));
   std::vector<std::uint32_t> crossed(p.t.tetrahedra.size(), 0);
   for (const TetrahedronIndex i : crossings.tetrahedra) ++crossed[i.value];
-  const auto inside = [&](std::span<const float> isolated) {
+  const auto inside = [&](SampleLengthsView isolated) {
     const SightRule rule{Weights::evidence, isolated};
     const SightLabels sight = line_of_sight(p.t, p.stars, lines, crossings, rule, p.known, Threads(1));
     std::size_t n = 0;
@@ -215,7 +215,7 @@ TEST(LineOfSight, InsideIsWhatManySamplesLieInFrontOf) {
     return n;
   };
   EXPECT_GT(inside({}), 50u);
-  EXPECT_EQ(inside(std::vector<float>(p.t.sample_count, 1)), 0u); // all may be outliers
+  EXPECT_EQ(inside(SampleLengths(p.t.sample_count, 1)), 0u); // all may be outliers
 }
 
 TEST(LineOfSight, IsTheSameForAnyNumberOfThreads) {

@@ -20,12 +20,12 @@ void set_inside(TetrahedronLabels& labels, TetrahedronIndex t, float certainty) 
   clouds::put(labels, t, Label::inside, certainty);
 }
 
-std::set<SampleIndex> vertices_of(const Tetrahedralization& t, TetrahedronIndex i) {
+std::set<VertexIndex> vertices_of(const Tetrahedralization& t, TetrahedronIndex i) {
   return {t.tetrahedra[i].begin(), t.tetrahedra[i].end()};
 }
-std::vector<SampleIndex> shared(const Tetrahedralization& t, TetrahedronIndex a, TetrahedronIndex b) {
+std::vector<VertexIndex> shared(const Tetrahedralization& t, TetrahedronIndex a, TetrahedronIndex b) {
   const auto va = vertices_of(t, a), vb = vertices_of(t, b);
-  std::vector<SampleIndex> common;
+  std::vector<VertexIndex> common;
   std::set_intersection(va.begin(), va.end(), vb.begin(), vb.end(), std::back_inserter(common));
   return common;
 }

@@ -30,7 +30,7 @@ std::vector<TetrahedronIndex> some_open(const Moves& moves, std::size_t count, s
 TEST(PricedLabels, CostIsWhatChangesInTheEnergyAndThePrices) {
   MoveStage stage = random_stage(120, 0.5, 3);
   std::vector<float> price(stage.p.t.sample_count, 2.5f);
-  stage.model.spacing.assign(stage.p.t.sample_count, 10); // nothing is long
+  stage.model.spacing = SampleLengths(stage.p.t.sample_count, 10); // nothing is long
   PricedLabels priced(stage.p.t, stage.p.stars, stage.energy, stage.model.spacing, price, stage.labels, stage.threads);
   const auto passed = [&] {
     std::uint32_t count = 0;
@@ -69,7 +69,7 @@ TEST(PricedLabels, LongTrianglesCostTheirLength) {
     faces += static_cast<double>(stage.energy.faces(i, k));
   }
   ASSERT_GT(expected, 1);
-  stage.model.spacing.assign(stage.p.t.sample_count, static_cast<float>(spacing));
+  stage.model.spacing = SampleLengths(stage.p.t.sample_count, static_cast<float>(spacing));
   PricedLabels priced(stage.p.t, stage.p.stars, stage.energy, stage.model.spacing,
                       std::vector<float>(stage.p.t.sample_count, 0.0f), stage.labels, stage.threads);
   EXPECT_NEAR(priced.cost_of(i), static_cast<double>(stage.energy.data[i]) + faces + expected, 1e-4);
@@ -154,7 +154,7 @@ TEST(Moves, MendWhatCostsLeast) {
     for (TetrahedronIndex b{a.value + 1}; b.value < p.t.tetrahedra.size(); ++b.value) {
       const auto &va = p.t.tetrahedra[a], &vb = p.t.tetrahedra[b];
       const auto common = std::count_if(va.begin(), va.end(),
-                                        [&](SampleIndex s) { return std::find(vb.begin(), vb.end(), s) != vb.end(); });
+                                        [&](VertexIndex s) { return std::find(vb.begin(), vb.end(), s) != vb.end(); });
       if (p.t.touches_cube(a) || p.t.touches_cube(b) || common != 2) continue;
       clouds::HandMade made(p.t.tetrahedra.size(), 50);
       made.set(a, Label::inside, tried % 2 == 0 ? 20.0f : 10.0f);
@@ -175,7 +175,7 @@ TEST(Moves, FillWhereThatIsCheapest) {
   // A ring around an edge is inside but for two tetrahedra apart from each other, one of which no one vouches for.
   clouds::Prepared p = clouds::prepare(clouds::random_box(100, 4));
   for (TetrahedronIndex first{0}; first.value < p.t.tetrahedra.size(); ++first.value) {
-    const SampleIndex u = p.t.tetrahedra[first][0], v = p.t.tetrahedra[first][1];
+    const VertexIndex u = p.t.tetrahedra[first][0], v = p.t.tetrahedra[first][1];
     if (p.t.is_corner(u) || p.t.is_corner(v)) continue;
     std::vector<TetrahedronIndex> ring;
     for (const TetrahedronIndex i : p.stars[u])

@@ -22,7 +22,7 @@ Scene scene_of(const TriangleMesh& mesh, const Points& others) {
   Scene scene;
   scene.surface.mesh = mesh;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) scene.surface.sample_of.push_back(SampleIndex{v});
-  scene.t.positions = IndexedArray<SampleIndex, Vec3>(clouds::joined(mesh.vertices, others));
+  scene.t.positions = IndexedArray<VertexIndex, Vec3>(clouds::joined(mesh.vertices, others));
   scene.t.sample_count = scene.t.positions.size();
   return scene;
 }
@@ -32,22 +32,22 @@ struct Answer {
   std::vector<Vec3> normals;
 };
 /// Even samples, none isolated; ℓ is 1.2 deviations.
-SampleModel even_model(const Scene& scene, const std::vector<float>& grid_spacing) {
+SampleModel even_model(const Scene& scene, const SampleLengths& grid_spacing) {
   SampleModel model;
-  model.spacing.assign(scene.t.sample_count, 1);
-  model.isolated.assign(scene.t.sample_count, 0);
-  model.noise.assign(scene.t.sample_count, 0);
-  for (std::size_t i = 0; i < grid_spacing.size(); ++i) model.noise[i] = grid_spacing[i] / 1.2f;
+  model.spacing = SampleLengths(scene.t.sample_count, 1);
+  model.isolated = SampleLengths(scene.t.sample_count, 0);
+  model.noise = SampleLengths(scene.t.sample_count, 0);
+  for (SampleIndex s{0}; s.value < grid_spacing.size(); ++s.value) model.noise[s] = grid_spacing[s] / 1.2f;
   return model;
 }
-Answer ask(const Scene& scene, const SampleModel& model, const std::vector<float>& grid_spacing, unsigned threads = 1) {
+Answer ask(const Scene& scene, const SampleModel& model, const SampleLengths& grid_spacing, unsigned threads = 1) {
   const Threads team(threads);
   Answer answer;
   answer.classes = classify_samples(scene.t, scene.surface, model, team);
   answer.normals = orient_samples(scene.t, scene.surface, answer.classes, grid_spacing, team).raw();
   return answer;
 }
-Answer ask(const Scene& scene, const std::vector<float>& grid_spacing = {}) {
+Answer ask(const Scene& scene, const SampleLengths& grid_spacing = {}) {
   return ask(scene, even_model(scene, grid_spacing), grid_spacing);
 }
 /// As the samples are.
@@ -75,7 +75,7 @@ TEST(Classify, DistanceToTheSurfaceInTolerances) {
 TEST(Classify, NoiseWidensTheTolerance) {
   const Scene scene = scene_of(shapes::grid(10, 10), {{5.2, 5.3, 2.9}, {5.2, 5.3, 3.1}});
   // ℓ = 1.2 is a deviation of 1, three of which are borne.
-  const Answer answer = ask(scene, std::vector<float>(scene.t.sample_count, 1.2f));
+  const Answer answer = ask(scene, SampleLengths(scene.t.sample_count, 1.2f));
   EXPECT_EQ(answer.classes.inlier.raw()[grid_vertices], 1);
   EXPECT_EQ(answer.classes.inlier.raw()[grid_vertices + 1], 0);
   EXPECT_THAT(answer.normals[grid_vertices], IsAbout(Vec3{0, 0, 1}));
@@ -157,7 +157,7 @@ TEST(Orient, CloseSheetsKeepTheirOwnSigns) {
   for (Vec3& p : below.vertices) p = {p.x, p.y, -0.1};
   const Scene scene = scene_of(shapes::joined(shapes::grid(10, 10), below), {{5.2, 5.3, 0.04}, {5.2, 5.3, -0.14}});
   for (const float noise : {0.0f, 0.5f}) {
-    const Answer answer = ask(scene, std::vector<float>(scene.t.sample_count, noise));
+    const Answer answer = ask(scene, SampleLengths(scene.t.sample_count, noise));
     for (std::uint32_t v = 0; v < 2 * grid_vertices; ++v)
       EXPECT_THAT(answer.normals[v], IsAbout(Vec3{0, 0, v < grid_vertices ? 1.0 : -1.0}));
     EXPECT_THAT(answer.normals[2 * grid_vertices], IsAbout(Vec3{0, 0, 1}));
@@ -171,7 +171,7 @@ TEST(Orient, NoiseIsAveragedOut) {
   for (Vec3& p : mesh.vertices) p.z = random.uniform(-0.6, 0.6);
   const Scene scene = scene_of(mesh, {});
   const auto mean_angle = [&](float grid_spacing) {
-    const Answer answer = ask(scene, std::vector<float>(scene.t.sample_count, grid_spacing));
+    const Answer answer = ask(scene, SampleLengths(scene.t.sample_count, grid_spacing));
     double sum = 0;
     for (const Vec3& n : answer.normals) sum += std::acos(n.z);
     return sum / static_cast<double>(answer.normals.size());
@@ -181,7 +181,7 @@ TEST(Orient, NoiseIsAveragedOut) {
 
 TEST(Orient, EveryInlierHasAUnitNormalAndThreadsDoNotMatter) {
   const Scene scene = scene_of(shapes::torus(1, 0.4, 300, 120), clouds::random_box(500, 7, 1.4));
-  const std::vector<float> grid(scene.t.sample_count, 0.01f);
+  const SampleLengths grid(scene.t.sample_count, 0.01f);
   const SampleModel model = measured(scene);
   const Answer one = ask(scene, model, grid, 1), three = ask(scene, model, grid, 3);
   EXPECT_EQ(one.classes.inlier.raw(), three.classes.inlier.raw());

@@ -25,8 +25,8 @@ double cosine(const Sphere& a, const Sphere& b) {
 std::set<Pair> delaunay_edges(const Prepared& p) {
   std::set<Pair> edges;
   for (const auto& v : p.t.tetrahedra)
-    for (const SampleIndex a : v)
-      for (const SampleIndex b : v)
+    for (const VertexIndex a : v)
+      for (const VertexIndex b : v)
         if (a < b && !p.t.is_corner(a) && !p.t.is_corner(b)) edges.insert({a.value, b.value});
   return edges;
 }
@@ -237,7 +237,7 @@ TEST(PoleGraph, IsolatedSamplesContractNothing) {
   for (float& radius : isolated) radius = random.uniform() < 0.5 ? 0.5f : 0.0f;
   std::vector<bool> is_node;
   for (const TetrahedronIndex t : p.poles.tetrahedron) is_node.push_back(known[t] == Label::unlabelled);
-  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, isolated, true, Threads(1));
+  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, SampleLengths(isolated), true, Threads(1));
   const auto cluster = cluster_of(p, is_node, isolated), of_all = cluster_of(p, is_node, {});
   EXPECT_NE(cluster, of_all);
   for (std::uint32_t i = 0; i < cluster.size(); ++i)

@@ -107,7 +107,7 @@ TEST(Poles, SpheresPassThroughTheirVertices) {
   for (std::uint32_t i = 0; i < p.poles.tetrahedron.size(); ++i) {
     const TetrahedronIndex t = p.poles.tetrahedron.raw()[i];
     EXPECT_TRUE(seen.insert(t).second); // a tetrahedron is one pole however many samples choose it
-    for (const SampleIndex s : p.t.tetrahedra[t])
+    for (const VertexIndex s : p.t.tetrahedra[t])
       EXPECT_NEAR(distance(p.t.positions[s], p.poles.sphere.raw()[i].centre) / p.poles.sphere.raw()[i].radius, 1, 1e-6);
   }
 }

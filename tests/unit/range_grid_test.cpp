@@ -43,7 +43,7 @@ struct Grid {
     cloud.sensors = {{{0, 0, 0}, false}};
     cloud.sensor_of.assign(cloud.points.size(), 0);
     p = clouds::prepare(cloud.points);
-    const auto lines = sight_lines(cloud, p.sample_of_row, p.t, std::vector<float>(p.t.sample_count, 0), {});
+    const auto lines = sight_lines(cloud, p.sample_of_row, p.t, SampleLengths(p.t.sample_count, 0), {});
     grid = RangeGrid(cloud, p.sample_of_row, p.t, lines);
   }
   [[nodiscard]] SampleIndex at(std::uint32_t c, std::uint32_t r) const { return p.sample_of_row[r * columns + c]; }

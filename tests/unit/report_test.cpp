@@ -58,10 +58,10 @@ TEST(Report, HasTheSchemaOfTheDocumentation) {
   EXPECT_THAT(keys(j["stages"][0]), IsSupersetOf({"name", "seconds", "peak_memory_bytes", "tetrahedra"}));
   EXPECT_THAT(keys(j["partitions"][0]), IsSupersetOf({"stage", "nodes", "edges", "eigenvalue", "residual", "iterations",
                                                       "sign_changes", "status"}));
-  EXPECT_THAT(keys(j["mesh"]),
-              IsSupersetOf({"vertices", "triangles", "boundary_edges", "nonmanifold_edges", "nonmanifold_vertices",
-                            "inconsistent_edges", "degenerate_triangles", "self_intersections", "components", "genus",
-                            "euler", "volume", "area", "component_list"}));
+  EXPECT_THAT(keys(j["mesh"]), IsSupersetOf({"vertices", "triangles", "boundary_edges", "nonmanifold_edges",
+                                             "nonmanifold_vertices", "inconsistent_edges", "degenerate_triangles",
+                                             "self_intersections", "all_self_intersections", "components", "genus",
+                                             "euler", "volume", "area", "component_list"}));
 }
 
 TEST(Report, HoldsWhatItWasGiven) {
@@ -100,6 +100,16 @@ TEST(Report, OfNothingStillParses) {
   const json j = json::parse(to_json(Report{}));
   EXPECT_EQ(j["mesh"]["triangles"], 0);
   EXPECT_TRUE(j["mesh"]["self_intersections"].is_null()); // not computed
+  EXPECT_TRUE(j["mesh"]["all_self_intersections"].is_null());
+}
+
+TEST(Report, SaysWhetherAllCrossingsWereCounted) {
+  MeshSummary summary;
+  summary.self_intersections = 7;
+  EXPECT_EQ(json::parse(to_json(summary))["all_self_intersections"], true);
+  summary.all_self_intersections = false;
+  EXPECT_EQ(json::parse(to_json(summary))["all_self_intersections"], false);
+  EXPECT_EQ(json::parse(to_json(summary))["self_intersections"], 7);
 }
 
 TEST(Report, PathsThatAreNoUtf8AndNumbersThatAreNoneStillParse) {

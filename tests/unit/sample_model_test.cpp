@@ -63,7 +63,7 @@ TEST(SampleModel, MeasuresTheNoiseOfASurface) {
   const double spacing = std::sqrt(4 * std::numbers::pi / static_cast<double>(n));
   for (const std::uint64_t seed : {1u, 2u, 3u})
     for (const double sigma : {0.5 * spacing, spacing, 3 * spacing}) {
-      const float measured = middle(Ordered(noisy_sphere(n, sigma, seed)).model.noise);
+      const float measured = middle(Ordered(noisy_sphere(n, sigma, seed)).model.noise.raw());
       EXPECT_NEAR(static_cast<double>(measured) / sigma, 1, 0.3) << sigma / spacing << " spacings, seed " << seed;
     }
 }
@@ -71,7 +71,7 @@ TEST(SampleModel, MeasuresTheNoiseOfASurface) {
 TEST(SampleModel, SmoothAndSharpSurfacesAreFreeOfNoise) {
   for (const Points& points : {clouds::sphere(20000), clouds::cube_surface(40), clouds::torus(3, 1, 200, 70)}) {
     const Ordered o(points);
-    EXPECT_LT(middle(o.model.noise), 0.05 * o.model.typical_spacing);
+    EXPECT_LT(middle(o.model.noise.raw()), 0.05 * o.model.typical_spacing);
     EXPECT_THAT(o.model.plane, testing::IsEmpty());
   }
 }
@@ -82,7 +82,7 @@ TEST(SampleModel, TwoSidesOfAWallAreNoNoise) {
   Points wall = grid(80);
   for (const Vec3& p : grid(80)) wall.push_back(p + Vec3{0.3, 0.4, 1.5});
   for (Vec3& p : wall) p.z += 0.05 * deviate(random);
-  EXPECT_LT(middle(Ordered(wall).model.noise), 0.2); // half the gap would be 0.75
+  EXPECT_LT(middle(Ordered(wall).model.noise.raw()), 0.2); // half the gap would be 0.75
 }
 
 TEST(SampleModel, ThinRodsAreNoNoise) {
@@ -97,7 +97,7 @@ TEST(SampleModel, ThinRodsAreNoNoise) {
           frame.push_back({static_cast<double>(along), across, static_cast<double>(b)});
         }
   const Ordered o(frame);
-  EXPECT_LT(middle(o.model.noise), 0.5); // half the thickness would be 1.5
+  EXPECT_LT(middle(o.model.noise.raw()), 0.5); // half the thickness would be 1.5
   EXPECT_THAT(o.model.plane, testing::IsEmpty());
 }
 
@@ -127,8 +127,9 @@ TEST(SampleModel, OneBodyDoesNotDecideForAnother) {
   const Points clean = clouds::sphere(10000), noisy = noisy_sphere(30000, 0.06, 7);
   const Ordered o(clouds::joined(clean, clouds::moved(noisy, {4, 0, 0})));
   std::vector<float> of_clean, of_noisy;
-  for (std::size_t row = 0; row < clean.size(); ++row) of_clean.push_back(o.model.noise[o.at(row)]);
-  for (std::size_t row = 0; row < noisy.size(); ++row) of_noisy.push_back(o.model.noise[o.at(clean.size() + row)]);
+  for (std::size_t row = 0; row < clean.size(); ++row) of_clean.push_back(o.model.noise[SampleIndex{o.at(row)}]);
+  for (std::size_t row = 0; row < noisy.size(); ++row)
+    of_noisy.push_back(o.model.noise[SampleIndex{o.at(clean.size() + row)}]);
   EXPECT_LT(middle(of_clean), 0.003);
   EXPECT_NEAR(middle(of_noisy), 0.06, 0.015);
 }
@@ -143,14 +144,14 @@ TEST(SampleModel, OutliersAreIsolatedAndSparsePartsAreNot) {
   const Ordered o(points);
   std::size_t wrong = 0, found = 0;
   for (std::size_t row = 0; row < points.size(); ++row)
-    (row < surface ? wrong : found) += o.model.isolated[o.at(row)] > 0;
+    (row < surface ? wrong : found) += o.model.isolated[SampleIndex{o.at(row)}] > 0;
   EXPECT_EQ(wrong, 0u);
   EXPECT_GE(found, 54u);
 }
 
 TEST(SampleModel, AGivenNoiseIsTakenEverywhere) {
   const Ordered o(clouds::sphere(3000), 0.2);
-  EXPECT_THAT(o.model.noise, testing::Each(0.2f));
+  EXPECT_THAT(o.model.noise.raw(), testing::Each(0.2f));
   EXPECT_FALSE(o.model.plane.empty());
 }
 
@@ -162,9 +163,9 @@ TEST(SampleModel, PointsThatFillAVolumeAreFlatNowhere) {
 TEST(SampleModel, AnyNumberOfThreadsGivesTheSame) {
   const Points points = noisy_sphere(20000, 0.03, 9);
   const Ordered one(points, std::nullopt, 1), three(points, std::nullopt, 3);
-  EXPECT_EQ(one.model.spacing, three.model.spacing);
-  EXPECT_EQ(one.model.noise, three.model.noise);
-  EXPECT_EQ(one.model.isolated, three.model.isolated);
+  EXPECT_EQ(one.model.spacing.raw(), three.model.spacing.raw());
+  EXPECT_EQ(one.model.noise.raw(), three.model.noise.raw());
+  EXPECT_EQ(one.model.isolated.raw(), three.model.isolated.raw());
   ASSERT_EQ(one.model.plane.size(), three.model.plane.size());
   for (std::size_t r = 0; r < one.model.plane.size(); ++r) {
     EXPECT_EQ(one.model.plane[r].mean, three.model.plane[r].mean);

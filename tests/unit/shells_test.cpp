@@ -29,7 +29,7 @@ struct Nested {
     for (TetrahedronIndex i{0}; i.value < labels.size(); ++i.value) {
       if (p.t.touches_cube(i)) continue;
       double largest = 0, least = 1e9;
-      for (const SampleIndex s : p.t.tetrahedra[i]) {
+      for (const VertexIndex s : p.t.tetrahedra[i]) {
         const double r = norm(p.t.positions[s] + p.t.origin);
         largest = std::max(largest, r);
         least = std::min(least, r);

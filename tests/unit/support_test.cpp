@@ -32,7 +32,7 @@ struct Hull {
     model = sample_model(std::span(p.t.positions.raw()).first(p.t.sample_count), std::nullopt, threads);
     surface = extract_surface(p.t, labels.labels(), Threads(2));
   }
-  std::vector<float> support(std::span<const float> grid_spacing = {}) {
+  std::vector<float> support(SampleLengthsView grid_spacing = {}) {
     measure_support(p.t, labels, model, grid_spacing, surface, threads);
     return surface.support;
   }
@@ -86,7 +86,7 @@ TEST(Support, IsLowOnTheSpikeOfAnIsolatedSample) {
   }
   EXPECT_GE(spikes, 3u);
   // Noise as wide as the spike explains it: 2.5 · 1 > 2, the longest edge.
-  const std::vector<float> grid_spacing(hull.p.t.sample_count, 1.0f);
+  const SampleLengths grid_spacing(hull.p.t.sample_count, 1.0f);
   for (const float s : hull.support(grid_spacing)) EXPECT_FLOAT_EQ(s, 1);
 }
 
@@ -108,8 +108,8 @@ struct TwoPieces {
     labels = Labels(p.t.tetrahedra.size(), Label::outside);
     for (TetrahedronIndex i{0}; i.value < labels.size(); ++i.value) {
       double longest = 0;
-      for (const SampleIndex a : p.t.tetrahedra[i])
-        for (const SampleIndex b : p.t.tetrahedra[i])
+      for (const VertexIndex a : p.t.tetrahedra[i])
+        for (const VertexIndex b : p.t.tetrahedra[i])
           longest = std::max(longest, distance(p.t.positions[a], p.t.positions[b]));
       if (longest < 10) labels[i] = Label::inside;
     }

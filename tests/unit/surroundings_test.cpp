@@ -37,7 +37,7 @@ PointCloud seen_from(Points points, const Vec3& place) {
 HullSight sight_of(const PointCloud& cloud) {
   const Scene scene = scene_of(cloud.points);
   const Tetrahedralization& t = scene.tetrahedralization;
-  const auto lines = sight_lines(cloud, scene.sample_of_row, t, std::vector<float>(t.sample_count, 0), {});
+  const auto lines = sight_lines(cloud, scene.sample_of_row, t, SampleLengths(t.sample_count, 0), {});
   return hull_sight(t, scene.stars, lines, Threads(2));
 }
 

@@ -19,7 +19,7 @@ Labels random_partial_labels(const Tetrahedralization& t, std::uint64_t seed) {
   return labels;
 }
 
-double longest_over_shortest(const Tetrahedralization& t, const std::vector<SampleIndex>& face) {
+double longest_over_shortest(const Tetrahedralization& t, const std::vector<VertexIndex>& face) {
   const double a = distance(t.positions[face[0]], t.positions[face[1]]),
                b = distance(t.positions[face[1]], t.positions[face[2]]),
                c = distance(t.positions[face[2]], t.positions[face[0]]);
@@ -28,11 +28,11 @@ double longest_over_shortest(const Tetrahedralization& t, const std::vector<Samp
 
 /// §3.4 from its definition: every pair of tetrahedra that share three vertices.
 void expect_faces(const Tetrahedralization& t, const Labels& labels, const TetrahedronGraph& h) {
-  std::map<std::vector<SampleIndex>, std::vector<std::uint32_t>> sharing;
+  std::map<std::vector<VertexIndex>, std::vector<std::uint32_t>> sharing;
   for (std::uint32_t i = 0; i < t.tetrahedra.size(); ++i)
-    for (const SampleIndex left_out : t.tetrahedra.raw()[i]) {
-      std::vector<SampleIndex> face;
-      for (const SampleIndex s : t.tetrahedra.raw()[i])
+    for (const VertexIndex left_out : t.tetrahedra.raw()[i]) {
+      std::vector<VertexIndex> face;
+      for (const VertexIndex s : t.tetrahedra.raw()[i])
         if (s != left_out) face.push_back(s);
       std::sort(face.begin(), face.end());
       sharing[face].push_back(i);

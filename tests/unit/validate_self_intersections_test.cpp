@@ -2,8 +2,10 @@
 #include <eigencrust/validate.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <random>
 
+#include "geometry/self_intersections.h"
 #include "shapes.h"
 
 namespace eigencrust {
@@ -93,6 +95,56 @@ TEST(SelfIntersections, AgreesWithAllPairsOfARandomSoup) {
       pairs += crossings({soup.vertices, {soup.triangles[i], soup.triangles[j]}, {}, {}});
   EXPECT_GT(pairs, 20);
   EXPECT_EQ(crossings(soup), pairs);
+}
+
+/// Triangles that all cross one another, like the pages of a book around the z axis through their middles.
+TriangleMesh sheaf(std::uint32_t n) {
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double angle = std::numbers::pi * (i + 0.5) / n, x = std::cos(angle), y = std::sin(angle);
+    for (const Vec3& p : {Vec3{-x, -y, 0}, Vec3{x, y, 0}, Vec3{0, 0, 1}}) mesh.vertices.push_back(p);
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    mesh.vertices.back().z += i; // no two have a vertex in common
+  }
+  return mesh;
+}
+
+Crossings crossings_within(const TriangleMesh& mesh, const CrossingLimits& limits, unsigned threads = 2) {
+  const std::vector<std::uint8_t> sound(mesh.triangles.size(), 0);
+  return count_self_intersections(mesh.vertices, mesh.triangles, sound, Threads(threads), limits);
+}
+
+TEST(SelfIntersections, WorkIsBoundedAndTheCountSaysSo) {
+  constexpr std::uint64_t n = 3000, all = n * (n - 1) / 2;
+  const TriangleMesh mesh = sheaf(n);
+  const Crossings exact = crossings_within(mesh, {256, n * n});
+  EXPECT_TRUE(exact.all);
+  EXPECT_EQ(exact.pairs, all);
+
+  const CrossingLimits limits{100, 500000};
+  const Crossings some = crossings_within(mesh, limits);
+  EXPECT_FALSE(some.all);
+  EXPECT_LT(some.pairs, all);
+  EXPECT_GT(some.pairs, limits.in_all / 4); // about half of what is looked at has the smaller number first
+  EXPECT_LE(some.looked, n * limits.always + limits.in_all + 64 * n);
+  const Crossings three = crossings_within(mesh, limits, 3);
+  EXPECT_EQ(three.pairs, some.pairs);
+  EXPECT_EQ(three.looked, some.looked);
+  // Ten times as many take ten times the work, where the limit of all was reached before.
+  const Crossings tenfold = crossings_within(sheaf(10 * n), {100, 0});
+  EXPECT_EQ(tenfold.looked, 10 * n * 100);
+}
+
+TEST(SelfIntersections, ASurfaceIsCountedToTheEndWithinAnyLimit) {
+  // The box of a large slope overlaps those of many small boxes beside it; nothing crosses.
+  TriangleMesh mesh{{{-100, -100, -300}, {300, -100, 100}, {-100, 300, -300}}, {{0, 1, 2}}, {}, {}};
+  for (int i = 0; i < 400; ++i)
+    mesh = shapes::joined(mesh, shapes::box({i % 20 * 2.0, i / 20 * 2.0, 0}, {i % 20 * 2.0 + 1, i / 20 * 2.0 + 1, 1}));
+  const Crossings counted = crossings_within(mesh, {});
+  EXPECT_TRUE(counted.all);
+  EXPECT_EQ(counted.pairs, 0u);
+  EXPECT_LT(counted.looked, 100 * mesh.triangles.size());
+  EXPECT_TRUE(validate(mesh).all_self_intersections);
 }
 
 } // namespace
