@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "files.h"
 #include "unknown_option.h"
 #include "verbs.h"
 
@@ -160,7 +161,7 @@ class TomlReader {
 
 std::vector<Entry> read_config(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
+  if (!file || is_folder(path))
     throw Error(ErrorKind::input, path, "the file of options cannot be read", "check the name after --config");
   return TomlReader(path, {std::istreambuf_iterator<char>(file), {}}).read();
 }

@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "command.h"
+#include "files.h"
 
 namespace eigencrust::cli {
 namespace {
@@ -36,7 +37,7 @@ int demo_verb(const Arguments& arguments) {
   const std::string scan = bundled_scan().string();
   std::error_code error;
   fs::create_directories(folder, error);
-  if (!fs::is_directory(folder))
+  if (!is_folder(folder))
     throw Error(ErrorKind::input, folder, "the folder cannot be created", "choose another one with -o");
   const std::string mesh = (fs::path(folder) / "teapot.ply").string(),
                     report = (fs::path(folder) / "teapot.json").string();

@@ -103,4 +103,18 @@ void check_files(const NamedFiles& named) {
   }
 }
 
+bool is_folder(const fs::path& path, std::error_code& error) {
+  bool found = false;
+  do {
+    found = fs::is_directory(path, error);
+  } while (error == std::errc::interrupted);
+  if (error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory) error.clear();
+  return found;
+}
+
+bool is_folder(const fs::path& path) {
+  std::error_code ignored;
+  return is_folder(path, ignored);
+}
+
 } // namespace eigencrust::cli

@@ -4,7 +4,9 @@
 /// as the type of its value; all lists follow from that.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace eigencrust::cli {
@@ -24,5 +26,10 @@ struct NamedFiles {
 /// were followed. \throws Error{usage} where one would be the other, where two outputs would be one file, and where an
 /// output's links go round in a circle or its name is too long
 void check_files(const NamedFiles& named);
+
+/// Is there a folder of this name? Asked again where a signal interrupts.
+/// \param error why nobody knows; none where there is no such thing, or another
+bool is_folder(const std::filesystem::path& path, std::error_code& error);
+bool is_folder(const std::filesystem::path& path);
 
 } // namespace eigencrust::cli

@@ -7,6 +7,7 @@
 #include <eigencrust/memory_forecast.h>
 #include <eigencrust/option_table.h>
 
+#include "files.h"
 #include "messages.h"
 #include "standard_streams.h"
 
@@ -125,12 +126,16 @@ void check_format(const Request& r, OutputKind kind) {
 void check_place(const std::string& path) {
   namespace fs = std::filesystem;
   if (path.empty() || is_standard_output(path)) return;
-  std::error_code ignored;
+  std::error_code error;
   const fs::path folder = fs::path(path).parent_path();
-  if (!folder.empty() && !fs::is_directory(folder, ignored))
+  if (!folder.empty() && !is_folder(folder, error)) {
+    if (error)
+      throw Error(ErrorKind::usage, path, "the folder " + folder.string() + " cannot be used: " + error.message(),
+                  "check its disk and its permissions, or name another");
     throw Error(ErrorKind::usage, path, "the folder " + folder.string() + " does not exist",
                 "create it first: mkdir -p " + folder.string());
-  if (fs::is_directory(path, ignored)) throw Error(ErrorKind::usage, path, "this is a folder", "name a file in it");
+  }
+  if (is_folder(path)) throw Error(ErrorKind::usage, path, "this is a folder", "name a file in it");
 }
 
 } // namespace
@@ -155,8 +160,8 @@ void check_outputs(const Request& r, OutputKind kind) {
   check_files({inputs_of(r), outputs_of(r), {}});
   for (const std::string& path : {r.output, r.report})
     if (!path.empty() && !is_standard_output(path)) require_writable(path);
+  if (r.dump_stages.empty() || is_folder(r.dump_stages)) return;
   std::error_code ignored; // whatever it is, the folder cannot be used
-  if (r.dump_stages.empty() || fs::is_directory(r.dump_stages, ignored)) return;
   if (!fs::create_directories(r.dump_stages, ignored))
     throw Error(ErrorKind::usage, r.dump_stages, "the folder cannot be created", "choose another one");
 }

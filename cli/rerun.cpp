@@ -3,6 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "files.h"
 #include "standard_streams.h"
 #include "verbs.h"
 
@@ -13,7 +14,7 @@ using Json = nlohmann::json;
 
 Json read_report(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
+  if (!file || is_folder(path))
     throw Error(ErrorKind::input, path, "the report cannot be read", "check the name of the file");
   Json report = Json::parse(file, nullptr, false);
   const bool sound = report.is_object() && report.contains("command") && report["command"].is_array() &&

@@ -11,6 +11,8 @@
 
 #include <eigencrust/eigencrust.h>
 
+#include "files.h"
+
 namespace eigencrust::cli {
 namespace {
 
@@ -51,7 +53,7 @@ Crop check_polygon(Crop crop) {
 
 Crop read_polygon(const std::string& path) {
   std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path))
+  if (!file || is_folder(path))
     fail("'" + path + "' is neither numbers nor a file that can be read",
          "give x,y,z,x,y,z (two corners of a box), x,y;x,y;x,y (a polygon) or a file of rows x y");
   Crop crop;
