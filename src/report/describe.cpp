@@ -29,11 +29,10 @@ void describe_noise(const SampleLengths& grid, Run& run) {
 /// Where half of the samples are farther off the surface than from one another; in merged range scans they are half as
 /// far.
 void warn_of_noise(const SampleModel& model, Run& run) {
-  std::vector<float> in_spacings(model.noise.size());
+  std::vector<float> noise = model.noise.raw(), in_spacings = noise;
   for (std::size_t s = 0; s < in_spacings.size(); ++s)
-    in_spacings[s] = model.noise[s] > 0 ? model.noise[s] / model.spacing[s] : 0;
+    if (in_spacings[s] > 0) in_spacings[s] /= model.spacing.raw()[s];
   if (in_spacings.empty() || !(median(in_spacings) > 1)) return;
-  std::vector<float> noise = model.noise;
   char text[32];
   const auto length = [&](double value) { return std::snprintf(text, sizeof text, "%.3g", value), std::string(text); };
   const double deviation = static_cast<double>(median(noise));
