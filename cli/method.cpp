@@ -65,6 +65,11 @@ void add_method_options(CLI::App& app, Request& r) {
 
 void add_smoothing_options(CLI::App& app, Request& r) {
   const Options robust = Options::of(Preset::robust), paper = Options::of(Preset::paper);
+  app.add_option(
+      "--surface", r.surface,
+      "Vertices: samples (input points), fitted (moved to the middle of the noise), auto (fitted where noise "
+      "was measured)" +
+          defaults(to_string(robust.surface), to_string(paper.surface)));
   app.add_option("--smooth", r.smooth,
                  "Smoothing steps; vertices then leave the samples" +
                      defaults(std::to_string(robust.smooth), std::to_string(paper.smooth)));
@@ -102,6 +107,7 @@ Options effective_options(const Request& r) {
   o.manifold = r.manifold;
   o.trim = r.trim;
   if (!r.components.empty()) o.components = parse_components(r.components);
+  if (!r.surface.empty()) o.surface = parse_surface_kind(r.surface);
   if (r.smooth) o.smooth = *r.smooth;
   if (!r.smoothing.empty()) o.smoothing = parse_smoothing(r.smoothing);
   for (const std::string& text : r.outside_points) o.outside_points.push_back(parse_point(text));

@@ -15,7 +15,8 @@ struct Request {
   InputOptions input;
   std::string output, report, progress = "auto", dump_stages;
   std::string preset = to_string(Preset::robust);
-  std::string weights, second_stage, eigensolver, questionable, grid_spacing, noise, components, smoothing, facade;
+  std::string weights, second_stage, eigensolver, questionable, grid_spacing, noise, components, surface, smoothing,
+      facade;
   bool manifold = Options{}.manifold; // on in both presets
   bool trim = Options{}.trim;
   std::optional<std::uint32_t> smooth;

@@ -21,7 +21,7 @@ struct StageShare {
   std::string_view name;
   double share;
 };
-constexpr std::array<StageShare, 25> shares{{{"samples", 4},
+constexpr std::array<StageShare, 27> shares{{{"samples", 4},
                                              {"sample_model", 4},
                                              {"delaunay", 24},
                                              {"stars", 1},
@@ -43,6 +43,8 @@ constexpr std::array<StageShare, 25> shares{{{"samples", 4},
                                              {"support", 1},
                                              {"components", 2},
                                              {"trim", 1},
+                                             {"fit", 12},
+                                             {"crossings", 4},
                                              {"attributes", 1},
                                              {"validate", 10}}};
 

@@ -25,6 +25,9 @@ int reconstruct_verb(const Arguments& arguments) {
   if (!request.quiet) {
     std::cout << request.output << ": " << grouped(report.points) << " points in " << run.cost() << "\n"
               << describe(report.mesh);
+    if (report.moved)
+      std::cout << "  " << grouped(report.moved->vertices) << " vertices moved from their samples: median "
+                << rounded(report.moved->median) << ", 99 % below " << rounded(report.moved->q99) << "\n";
     if (report.one_sided)
       std::cout << "  one-sided scan: every line of sight is within "
                 << std::lround(report.one_sided->widest_angle * 180 / std::numbers::pi)

@@ -5,6 +5,7 @@
 #include <CGAL/intersections.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "geometry/box_tree.h"
@@ -71,21 +72,57 @@ std::vector<std::uint8_t> find_degenerate_triangles(std::span<const Vec3> vertic
   return degenerate;
 }
 
-std::uint64_t count_self_intersections(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
-                                       std::span<const std::uint8_t> degenerate, const Threads& threads) {
-  std::vector<Triangle> sound;
-  sound.reserve(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    if (degenerate[t] == 0) sound.push_back(triangles[t]);
-  if (sound.empty()) return 0;
-  std::vector<Box3> boxes(sound.size());
-  for (std::size_t t = 0; t < sound.size(); ++t)
-    for (const std::uint32_t v : sound[t]) boxes[t].add(vertices[v]);
-  const BoxTree tree(boxes);
-  const auto corners = [&](const Triangle& t) {
-    return Corners{to_cgal(vertices[t[0]]), to_cgal(vertices[t[1]]), to_cgal(vertices[t[2]])};
-  };
-  const auto intersect = [&](Triangle f, Triangle g) {
+namespace {
+
+/// Finds the pairs one of which is asked for.
+class CrossingSearch {
+ public:
+  CrossingSearch(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                 std::span<const std::uint8_t> degenerate, std::span<const std::uint8_t> asked)
+      : vertices_(vertices), triangles_(triangles), degenerate_(degenerate), asked_(asked) {
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+      if (degenerate[t] == 0 && is_asked(t)) number_.push_back(t);
+    boxes_.reserve(number_.size());
+    for (const std::uint32_t t : number_) boxes_.push_back(box_of(t));
+    if (!boxes_.empty()) tree_ = BoxTree(boxes_);
+  }
+
+  /// visit(block, f, g) for each pair once, on the thread of the block; blocks go through the triangles in order.
+  template <class Visit>
+  void run(const Threads& threads, Visit&& visit) const {
+    if (boxes_.empty()) return;
+    // Where all are asked for in the order of the leaves, so that one query after the other walks through the same
+    // nodes; the tree is small where few are.
+    const bool all = number_.size() == triangles_.size();
+    for_blocks(threads, triangles_.size(), block, [&](std::size_t begin, std::size_t end, std::size_t b) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto f = all ? number_[tree_.order()[i]] : static_cast<std::uint32_t>(i);
+        if (degenerate_[f] != 0) continue;
+        const Box3 box = box_of(f);
+        const bool both = is_asked(f);
+        tree_.overlapping_leaves(box, [&](std::uint32_t item) {
+          const std::uint32_t g = number_[item];
+          if ((both && g <= f) || !BoxTree::overlap(boxes_[item], box)) return;
+          if (intersect(triangles_[f], triangles_[g])) visit(b, f, g);
+        });
+      }
+    });
+  }
+  [[nodiscard]] std::size_t blocks() const { return (triangles_.size() + block - 1) / block; }
+
+ private:
+  static constexpr std::size_t block = 2048;
+
+  [[nodiscard]] bool is_asked(std::uint32_t t) const { return asked_.empty() || asked_[t] != 0; }
+  [[nodiscard]] Box3 box_of(std::uint32_t t) const {
+    Box3 box;
+    for (const std::uint32_t v : triangles_[t]) box.add(vertices_[v]);
+    return box;
+  }
+  [[nodiscard]] Corners corners(const Triangle& t) const {
+    return {to_cgal(vertices_[t[0]]), to_cgal(vertices_[t[1]]), to_cgal(vertices_[t[2]])};
+  }
+  [[nodiscard]] bool intersect(Triangle f, Triangle g) const {
     switch (shared_first(f, g)) {
       case 0:
         return meet_anywhere(corners(f), corners(g));
@@ -96,19 +133,37 @@ std::uint64_t count_self_intersections(std::span<const Vec3> vertices, std::span
       default:
         return true; // one triangle twice
     }
-  };
-  // In the order of the leaves, so that one query after the other walks through the same nodes.
-  const auto part = [&](std::size_t begin, std::size_t end) {
-    std::uint64_t pairs = 0;
-    for (std::size_t place = begin; place < end; ++place) {
-      const std::uint32_t t = tree.order()[place];
-      tree.overlapping_leaves(boxes[t], [&](std::uint32_t other) {
-        if (other > t && BoxTree::overlap(boxes[other], boxes[t]) && intersect(sound[t], sound[other])) ++pairs;
-      });
-    }
-    return pairs;
-  };
-  return sum_blocks<std::uint64_t>(threads, sound.size(), part, 2048);
+  }
+
+  std::span<const Vec3> vertices_;
+  std::span<const Triangle> triangles_;
+  std::span<const std::uint8_t> degenerate_, asked_;
+  std::vector<std::uint32_t> number_; ///< of those asked for
+  std::vector<Box3> boxes_;           ///< of those
+  BoxTree tree_;
+};
+
+} // namespace
+
+std::uint64_t count_self_intersections(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                                       std::span<const std::uint8_t> degenerate, const Threads& threads) {
+  const CrossingSearch search(vertices, triangles, degenerate, {});
+  std::vector<std::uint64_t> pairs(search.blocks(), 0);
+  search.run(threads, [&](std::size_t block, std::uint32_t, std::uint32_t) { ++pairs[block]; });
+  return std::accumulate(pairs.begin(), pairs.end(), std::uint64_t{0});
+}
+
+std::vector<std::array<std::uint32_t, 2>> find_self_intersections(std::span<const Vec3> vertices,
+                                                                  std::span<const Triangle> triangles,
+                                                                  std::span<const std::uint8_t> degenerate,
+                                                                  std::span<const std::uint8_t> asked,
+                                                                  const Threads& threads) {
+  const CrossingSearch search(vertices, triangles, degenerate, asked);
+  std::vector<std::vector<std::array<std::uint32_t, 2>>> pairs(search.blocks());
+  search.run(threads, [&](std::size_t block, std::uint32_t f, std::uint32_t g) { pairs[block].push_back({f, g}); });
+  std::vector<std::array<std::uint32_t, 2>> all;
+  for (const auto& part : pairs) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 } // namespace eigencrust

@@ -3,6 +3,7 @@
 /// Which triangles of a soup run through each other, decided exactly.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,5 +25,13 @@ std::vector<std::uint8_t> find_degenerate_triangles(std::span<const Vec3> vertic
 /// \param degenerate triangles marked 1 are left out: they have no inside to speak of
 std::uint64_t count_self_intersections(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                                        std::span<const std::uint8_t> degenerate, const Threads& threads);
+
+/// Those pairs, for a mesh that has few of them; `asked` (may be empty: all) marks triangles, and pairs without any of
+/// these are left out. The same order for any number of threads.
+std::vector<std::array<std::uint32_t, 2>> find_self_intersections(std::span<const Vec3> vertices,
+                                                                  std::span<const Triangle> triangles,
+                                                                  std::span<const std::uint8_t> degenerate,
+                                                                  std::span<const std::uint8_t> asked,
+                                                                  const Threads& threads);
 
 } // namespace eigencrust

@@ -21,6 +21,7 @@ struct LinesOfSight;
 struct Contradictions;
 struct MinimumLabels;
 struct PointResults;
+struct UncrossCounts;
 
 void describe(const Samples& samples, Run& run);
 void describe(const SampleMeasures& measures, Run& run);
@@ -38,6 +39,7 @@ void describe(const std::vector<DroppedComponent>& dropped, Run& run);
 void describe(const SamplesApart& samples, Run& run);
 void describe(const UnsupportedTriangles& unsupported, Run& run);
 void describe(const PointResults& results, Run& run);
+void describe(const UncrossCounts& counts, Run& run);
 void describe(const MeshSummary& mesh, Run& run);
 
 } // namespace eigencrust

@@ -60,6 +60,7 @@ Json json_of(const Options& o) {
           {"manifold", o.manifold},
           {"manifold_rule", to_string(o.manifold_rule)},
           {"components", to_string(o.components)},
+          {"surface", to_string(o.surface)},
           {"smooth", o.smooth},
           {"smoothing", to_string(o.smoothing)},
           {"outside_points", std::move(points_out)},
@@ -100,6 +101,11 @@ Json json_of(const PartitionReport& p) {
 Json json_of(const std::optional<OneSided>& scan) {
   if (!scan) return {};
   return {{"direction", json_of(scan->direction)}, {"widest_angle", scan->widest_angle * 180 / std::numbers::pi}};
+}
+
+Json json_of(const std::optional<MovedReport>& moved) {
+  if (!moved) return {};
+  return {{"vertices", moved->vertices}, {"median", moved->median}, {"q99", moved->q99}, {"max", moved->max}};
 }
 
 /// What is known of the sensors of a file; null: nothing.
@@ -151,6 +157,7 @@ std::string to_json(const Report& report) {
                   {"contradicting_rays", report.contradicting_rays},
                   {"one_sided", json_of(report.one_sided)},
                   {"unsupported_area", report.unsupported_area},
+                  {"moved", json_of(report.moved)},
                   {"seconds", report.seconds},
                   {"peak_memory_bytes", report.peak_memory_bytes},
                   {"warnings", report.warnings},

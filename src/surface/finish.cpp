@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "fit/fit.h"
+#include "fit/uncross.h"
 #include "geometry/exact_difference.h"
+#include "numerics/quantile.h"
 #include "surface/surface.h"
 
 namespace eigencrust {
@@ -15,17 +20,56 @@ bool is_exact_translation(const Tetrahedralization& t, const PointCloud& cloud, 
   return rounded == 0;
 }
 
-/// The surface in input coordinates with the attributes of its points and source_index. Unless the
-/// vertices were moved they are the input's rows bit for bit.
-TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, const PointCloud& cloud, bool moved) {
+/// Moves vertices to the middle of the noise. \return whether any moved
+bool fit(Surface& surface, const Scene& scene, const Context& context) {
+  const auto& [options, run, threads] = context;
+  if (options.surface == SurfaceKind::samples) return false;
+  const Tetrahedralization& t = scene.tetrahedralization;
+  const SampleModel& model = scene.measures.model;
+  std::vector<float> noise = noise_at_vertices(surface, model, threads);
+  if (options.surface == SurfaceKind::automatic) {
+    if (std::none_of(noise.begin(), noise.end(), [](float sigma) { return sigma > 0; })) return false;
+    for (float& sigma : noise)
+      if (sigma == 0) sigma = -1;
+  }
+  run.stage("fit", [&] {
+    const auto samples = std::span(t.positions.raw()).first(t.sample_count);
+    surface.mesh.vertices = fitted_vertices(surface, samples, model, noise, threads);
+  });
+  return true;
+}
+
+/// How far the vertices are from the input points that they were.
+MovedReport distances_moved(std::span<const Vec3> before, std::span<const Vec3> after) {
+  std::vector<double> distances;
+  for (std::size_t v = 0; v < before.size(); ++v)
+    if (before[v] != after[v]) distances.push_back(distance(before[v], after[v]));
+  if (distances.empty()) return {};
+  return {distances.size(), median(distances), quantile(distances, 0.99),
+          *std::max_element(distances.begin(), distances.end())};
+}
+
+std::vector<Vec3> input_points(const TriangleMesh& mesh, std::span<const SampleIndex> sample_of,
+                               const Tetrahedralization& t, const PointCloud& cloud) {
+  std::vector<Vec3> points;
+  points.reserve(mesh.vertices.size());
+  for (const SampleIndex s : sample_of) points.push_back(cloud.points[t.source[s]]);
+  return points;
+}
+
+/// The surface in input coordinates with the attributes of its points and source_index. Vertices that were not moved
+/// are the input's rows bit for bit.
+TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, const PointCloud& cloud) {
   TriangleMesh mesh;
   mesh.triangles = surface.mesh.triangles;
   std::vector<std::uint32_t> source;
   source.reserve(surface.sample_of.size());
   for (const SampleIndex s : surface.sample_of) source.push_back(t.source[s]);
   mesh.vertices.reserve(source.size());
-  for (std::size_t v = 0; v < source.size(); ++v)
-    mesh.vertices.push_back(moved ? surface.mesh.vertices[v] + t.origin : cloud.points[source[v]]);
+  for (std::size_t v = 0; v < source.size(); ++v) {
+    const Vec3& at = surface.mesh.vertices[v];
+    mesh.vertices.push_back(at == t.positions[surface.sample_of[v]] ? cloud.points[source[v]] : at + t.origin);
+  }
   for (const Attribute& attribute : cloud.attributes) mesh.vertex_attributes.push_back(gather(attribute, source));
   mesh.vertex_attributes.push_back(make_attribute("source_index", source));
   if (!cloud.scan_index.empty()) {
@@ -42,10 +86,18 @@ TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, co
 
 TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene, const Context& context) {
   const auto& [options, run, threads] = context;
-  if (options.smooth > 0)
+  bool moved = fit(surface, scene, context);
+  if (options.smooth > 0) {
     run.stage("smoothing", [&] { smooth(surface.mesh, options.smoothing, options.smooth, threads); });
-  return run.stage("attributes",
-                   [&] { return finish_mesh(surface, scene.tetrahedralization, cloud, options.smooth > 0); });
+    moved = true;
+  }
+  const Tetrahedralization& t = scene.tetrahedralization;
+  TriangleMesh mesh = run.stage("attributes", [&] { return finish_mesh(surface, t, cloud); });
+  if (!moved) return mesh;
+  const std::vector<Vec3> before = input_points(mesh, surface.sample_of, t, cloud);
+  run.stage("crossings", [&] { return uncross(before, scene.measures.model.typical_spacing, mesh, threads); });
+  run.report().moved = distances_moved(before, mesh.vertices);
+  return mesh;
 }
 
 void check(const TriangleMesh& mesh, const PointCloud& cloud, const Scene& scene, const ValidateOptions& checks,
@@ -53,7 +105,7 @@ void check(const TriangleMesh& mesh, const PointCloud& cloud, const Scene& scene
   const auto& [options, run, threads] = context;
   run.stage("validate", [&] {
     // Faces of one Delaunay tetrahedralization do not cross, unless they were moved or rounded (docs/guarantees.md).
-    const bool cannot_cross = checks.self_intersections && options.smooth == 0 &&
+    const bool cannot_cross = checks.self_intersections && !run.report().moved &&
                               is_exact_translation(scene.tetrahedralization, cloud, threads);
     ValidateOptions needed = checks;
     needed.self_intersections = checks.self_intersections && !cannot_cross;

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/uncross.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "geometry/mesh_topology.h"
+#include "geometry/self_intersections.h"
+#include "surface/fans.h"
+
+namespace eigencrust {
+namespace {
+
+// Folds come out where the surface is fine but its triangles are tangled: the middle of the neighbours is near it.
+constexpr std::uint8_t easing_steps = 4;
+// Then half way, a quarter of the way, and all the way back.
+constexpr std::uint8_t steps_back = 3;
+
+class Uncrossing {
+ public:
+  Uncrossing(std::span<const Vec3> before, double tolerance, TriangleMesh& mesh, const Threads& threads)
+      : before_(before),
+        fitted_(mesh.vertices),
+        tolerance_(tolerance),
+        mesh_(mesh),
+        fans_(mesh),
+        threads_(threads),
+        steps_(mesh.vertices.size(), 0),
+        movable_(mesh.vertices.size(), 0) {
+    for (std::size_t v = 0; v < movable_.size(); ++v) {
+      if (mesh_.vertices[v] == before_[v]) continue;
+      movable_[v] = 1;
+      mesh_.vertices[v] = rounded(mesh_.vertices[v]);
+    }
+    // The middle of its neighbours is no place for a vertex at a rim.
+    const std::vector<Side> sides = sorted_sides(mesh.triangles, mesh.vertices.size(), threads);
+    rim_.assign(movable_.size(), 0);
+    for_each_edge(sides, [&](std::span<const Side> edge) {
+      if (edge.size() == 1) rim_[edge[0].low] = rim_[edge[0].high] = 1;
+    });
+  }
+
+  UncrossCounts run() {
+    UncrossCounts counts;
+    std::vector<std::uint8_t> asked;
+    for (bool first = true;; first = false) {
+      const std::vector<std::uint32_t> bad = bad_triangles(asked, counts.left);
+      if (first) counts.crossings = counts.left;
+      if (bad.empty() || !ease(bad)) break;
+      asked = touched();
+    }
+    counts.eased =
+        static_cast<std::uint64_t>(std::count_if(steps_.begin(), steps_.end(), [](std::uint8_t s) { return s > 0; }));
+    return counts;
+  }
+
+ private:
+  /// Triangles that cross one another or have no area, increasing.
+  std::vector<std::uint32_t> bad_triangles(std::span<const std::uint8_t> asked, std::uint64_t& crossings) const {
+    const auto degenerate = find_degenerate_triangles(mesh_.vertices, mesh_.triangles, threads_);
+    const auto pairs = find_self_intersections(mesh_.vertices, mesh_.triangles, degenerate, asked, threads_);
+    crossings = pairs.size();
+    std::vector<std::uint32_t> bad;
+    for (const auto& [f, g] : pairs) {
+      bad.push_back(f);
+      bad.push_back(g);
+    }
+    for (std::uint32_t t = 0; t < degenerate.size(); ++t)
+      if (degenerate[t] != 0) bad.push_back(t);
+    std::sort(bad.begin(), bad.end());
+    bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
+    return bad;
+  }
+
+  /// One step for each vertex of these triangles that has one left. \return whether there was any
+  bool ease(const std::vector<std::uint32_t>& bad) {
+    moved_.clear();
+    for (const std::uint32_t t : bad)
+      for (const std::uint32_t v : mesh_.triangles[t])
+        if (movable_[v] && steps_[v] < easing_steps + steps_back) moved_.push_back(v);
+    std::sort(moved_.begin(), moved_.end());
+    moved_.erase(std::unique(moved_.begin(), moved_.end()), moved_.end());
+    std::vector<Vec3> places;
+    places.reserve(moved_.size());
+    for (const std::uint32_t v : moved_) places.push_back(next_place(v));
+    for (std::size_t i = 0; i < moved_.size(); ++i) mesh_.vertices[moved_[i]] = places[i];
+    return !moved_.empty();
+  }
+
+  Vec3 next_place(std::uint32_t v) {
+    const std::uint8_t step = ++steps_[v];
+    if (step <= easing_steps && !rim_[v]) {
+      Vec3 sum;
+      for (const auto& wing : fans_[v]) sum = sum + (mesh_.vertices[wing.next] - before_[v]);
+      return rounded(before_[v] + (1.0 / static_cast<double>(fans_[v].size())) * sum);
+    }
+    if (step >= easing_steps + steps_back) return before_[v];
+    const double share = std::ldexp(1.0, -std::max(1, step - easing_steps));
+    return rounded(before_[v] + share * (fitted_[v] - before_[v]));
+  }
+
+  [[nodiscard]] std::vector<std::uint8_t> touched() const {
+    std::vector<std::uint8_t> of_vertex(mesh_.vertices.size(), 0), touched(mesh_.triangles.size(), 0);
+    for (const std::uint32_t v : moved_) of_vertex[v] = 1;
+    for (std::size_t t = 0; t < touched.size(); ++t)
+      for (const std::uint32_t v : mesh_.triangles[t]) touched[t] |= of_vertex[v];
+    return touched;
+  }
+
+  [[nodiscard]] double rounded(double x) const {
+    // Volatile: g++ 12 at -O2 otherwise keeps the value before the rounding.
+    const volatile float nearest = static_cast<float>(x);
+    const double result = static_cast<double>(nearest);
+    return std::fabs(result - x) < tolerance_ ? result : x;
+  }
+  [[nodiscard]] Vec3 rounded(const Vec3& p) const { return {rounded(p.x), rounded(p.y), rounded(p.z)}; }
+
+  std::span<const Vec3> before_;
+  std::vector<Vec3> fitted_;
+  double tolerance_;
+  TriangleMesh& mesh_;
+  SurfaceFans fans_;
+  const Threads& threads_;
+  std::vector<std::uint8_t> steps_, movable_, rim_;
+  std::vector<std::uint32_t> moved_; ///< in the last step
+};
+
+} // namespace
+
+UncrossCounts uncross(std::span<const Vec3> before, double spacing, TriangleMesh& mesh, const Threads& threads) {
+  constexpr double shares = 1000; // what the writer of files allows, too
+  return Uncrossing(before, spacing / shares, mesh, threads).run();
+}
+
+} // namespace eigencrust

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/uncross.h"
+
+#include <eigencrust/validate.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "geometry/self_intersections.h"
+#include "shapes.h"
+
+namespace eigencrust {
+namespace {
+
+constexpr double spacing = 0.1;
+
+/// The sphere with some of its vertices moved by up to `most` at random.
+TriangleMesh tangled(const TriangleMesh& sphere, unsigned every, double most) {
+  TriangleMesh mesh = sphere;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> step(-most, most);
+  for (std::size_t v = 0; v < mesh.vertices.size(); v += every)
+    mesh.vertices[v] = mesh.vertices[v] + Vec3{step(random), step(random), step(random)};
+  return mesh;
+}
+
+TEST(Uncross, WhatDoesNotCrossIsLeftAlone) {
+  const TriangleMesh sphere = shapes::icosphere(3);
+  TriangleMesh mesh = tangled(sphere, 1, 0.01);
+  const std::vector<Vec3> moved = mesh.vertices;
+  const UncrossCounts counts = uncross(sphere.vertices, spacing, mesh, Threads(2));
+  EXPECT_EQ(counts.crossings, 0);
+  EXPECT_EQ(counts.eased, 0);
+  for (std::size_t v = 0; v < moved.size(); ++v) EXPECT_LT(distance(mesh.vertices[v], moved[v]), 1e-6);
+}
+
+TEST(Uncross, CoordinatesBecomeFloatsWhereThatIsFineEnough) {
+  const TriangleMesh sphere = shapes::icosphere(2);
+  TriangleMesh near = tangled(sphere, 1, 0.001), fine = near;
+  uncross(sphere.vertices, spacing, near, Threads(1));
+  for (const Vec3& p : near.vertices) EXPECT_EQ(p.x, static_cast<double>(static_cast<float>(p.x)));
+  const std::vector<Vec3> exact = fine.vertices;
+  uncross(sphere.vertices, 0, fine, Threads(1));
+  EXPECT_EQ(fine.vertices, exact);
+}
+
+TEST(Uncross, OneVertexPulledThroughTheOtherSideComesBack) {
+  const TriangleMesh sphere = shapes::icosphere(3);
+  TriangleMesh mesh = sphere;
+  mesh.vertices[100] = -1.5 * mesh.vertices[100];
+  ASSERT_GT(validate(mesh).self_intersections, 0);
+  const UncrossCounts counts = uncross(sphere.vertices, spacing, mesh, Threads(2));
+  EXPECT_GT(counts.crossings, 0);
+  EXPECT_EQ(counts.left, 0);
+  EXPECT_EQ(validate(mesh).self_intersections, 0);
+  EXPECT_EQ(validate(mesh).degenerate_triangles, 0);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    if (v != 100) {
+      EXPECT_EQ(mesh.vertices[v], sphere.vertices[v]) << "it was never moved";
+    }
+}
+
+TEST(Uncross, WildTanglesComeOutForAnyNumberOfThreads) {
+  const TriangleMesh sphere = shapes::icosphere(3);
+  for (const double most : {0.1, 0.5, 3.0}) {
+    TriangleMesh mesh = tangled(sphere, 2, most), other = mesh;
+    ASSERT_GT(validate(mesh).self_intersections, 0);
+    EXPECT_EQ(uncross(sphere.vertices, spacing, mesh, Threads(1)).left, 0);
+    uncross(sphere.vertices, spacing, other, Threads(3));
+    EXPECT_EQ(validate(mesh).self_intersections, 0);
+    EXPECT_EQ(validate(mesh).degenerate_triangles, 0);
+    EXPECT_EQ(mesh.vertices, other.vertices);
+  }
+}
+
+TEST(Uncross, VerticesThatMeetArePartedAndTrianglesWithoutAreaOpened) {
+  const TriangleMesh sphere = shapes::icosphere(2);
+  TriangleMesh mesh = sphere;
+  mesh.vertices[0] = mesh.vertices[40];
+  mesh.vertices[mesh.triangles[50][0]] =
+      0.5 * (mesh.vertices[mesh.triangles[50][1]] + mesh.vertices[mesh.triangles[50][2]]);
+  uncross(sphere.vertices, spacing, mesh, Threads(1));
+  const MeshSummary summary = validate(mesh);
+  EXPECT_TRUE(summary.closed() && summary.manifold());
+  EXPECT_EQ(summary.self_intersections, 0);
+  EXPECT_EQ(summary.degenerate_triangles, 0);
+}
+
+TEST(Uncross, AnOpenMeshKeepsItsRimWhereItIs) {
+  const TriangleMesh before = shapes::grid(6, 6);
+  TriangleMesh mesh = before;
+  mesh.vertices[0] = {4.2, 4.3, 0}; // a corner, over to the other side
+  ASSERT_GT(validate(mesh).self_intersections, 0);
+  EXPECT_EQ(uncross(before.vertices, spacing, mesh, Threads(1)).left, 0);
+  EXPECT_EQ(validate(mesh).self_intersections, 0);
+}
+
+TEST(FindSelfIntersections, ThePairsThatAreCountedEachOnceAndThoseAskedFor) {
+  const TriangleMesh mesh = tangled(shapes::icosphere(3), 2, 0.6);
+  const std::vector<std::uint8_t> sound(mesh.triangles.size(), 0);
+  const auto all = find_self_intersections(mesh.vertices, mesh.triangles, sound, {}, Threads(2));
+  EXPECT_EQ(all.size(), count_self_intersections(mesh.vertices, mesh.triangles, sound, Threads(2)));
+  std::vector<std::uint8_t> asked(mesh.triangles.size(), 0);
+  for (std::size_t t = 0; t < asked.size(); t += 7) asked[t] = 1;
+  const auto ordered = [](auto pairs) {
+    for (auto& [f, g] : pairs) std::tie(f, g) = std::minmax({f, g});
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  };
+  auto expected = ordered(all);
+  EXPECT_EQ(std::adjacent_find(expected.begin(), expected.end()), expected.end());
+  std::erase_if(expected, [&](const auto& pair) { return !asked[pair[0]] && !asked[pair[1]]; });
+  ASSERT_GT(expected.size(), 10);
+  EXPECT_EQ(ordered(find_self_intersections(mesh.vertices, mesh.triangles, sound, asked, Threads(2))), expected);
+}
+
+} // namespace
+} // namespace eigencrust
