@@ -9,9 +9,9 @@ int check_verb(const Arguments& arguments) {
   std::string path;
   bool json = false, no_intersections = false;
   unsigned threads = 0;
-  CLI::App app("Is a mesh closed, manifold and oriented? Vertices with equal coordinates count as one.",
-               "eigencrust check");
-  app.add_option("MESH", path, "Mesh to look at (ply obj off stl)")->required();
+  OptionTable app("Is a mesh closed, manifold and oriented? Vertices with equal coordinates count as one.",
+                  "eigencrust check");
+  app.add_option("MESH", path, "Mesh to look at (ply obj off stl)")->required()->type_name(file_to_read);
   app.add_flag("--json", json, "Print the figures as JSON");
   app.add_flag("--no-self-intersections", no_intersections, "Skip the dearest of the checks");
   app.add_option("--threads", threads, "Threads, 0 for all cores")->capture_default_str();
@@ -21,7 +21,7 @@ int check_verb(const Arguments& arguments) {
   if (json)
     std::cout << to_json(summary) << "\n";
   else
-    std::cout << path << "\n" << describe(summary);
+    std::cout << printable(path) << "\n" << describe(summary);
   const bool fine = summary.closed() && summary.manifold() && summary.oriented();
   return fine ? 0 : static_cast<int>(ErrorKind::guarantee);
 }

@@ -3,10 +3,8 @@
 /// What the verbs of the command share.
 #pragma once
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,54 +13,64 @@
 #include <eigencrust/io.h>
 #include <eigencrust/validate.h>
 
+#include "files.h"
+#include "option_table.h"
+#include "printable.h"
+#include "signals.h"
+
 namespace eigencrust::cli {
 
 /// Arguments after the verb, and the whole line for the report.
 struct Arguments {
   std::vector<std::string> words, command;
+  /// If given, a verb hands its options to it and does nothing else.
+  std::function<void(const OptionTable&)> describe{};
 };
 
 // One function per verb. \return the exit status; errors are thrown
 int reconstruct_verb(const Arguments& arguments);
 int orient_verb(const Arguments& arguments);
-int classify_verb(const Arguments& arguments);
+int outliers_verb(const Arguments& arguments);
 int info_verb(const Arguments& arguments);
 int check_verb(const Arguments& arguments);
 int compare_verb(const Arguments& arguments);
 int render_verb(const Arguments& arguments);
 int demo_verb(const Arguments& arguments);
+int rerun_verb(const Arguments& arguments);
+int completion_verb(const Arguments& arguments);
+int man_verb(const Arguments& arguments);
 
 /// The outcome of parsing: go on, or end with this status (help was printed).
 struct Parsed {
   bool done = false;
   int status = 0;
+  std::vector<std::string> command; ///< the whole line for the report, options from --config written out
 };
-/// \throws Error{usage} with CLI11's explanation
-Parsed parse(CLI::App& app, const Arguments& arguments);
+/// Adds --help, --help-all and --config to what the verb declared. \throws Error{usage} saying what was meant, and
+/// where an output would overwrite what is read
+Parsed parse(OptionTable& app, const Arguments& arguments);
+
+inline constexpr const char* help_chapter = "Help";
 
 /// Several inputs are several scans of one scene.
 struct InputOptions {
   std::vector<std::string> paths;
-  std::string columns, scan_index, sensors, pcd_viewpoint = "auto";
+  std::string columns, scan_index, sensors, pcd_viewpoint = "auto", crop, thin;
   std::vector<std::string> sensor, sensor_direction; ///< one per input
 };
-void add_input_options(CLI::App& app, InputOptions& options);
-/// Reads and merges; fills files with path, hash and count. Sensors that the options name take the place of
-/// those that the files hold.
-/// \param notes if given, gets what each file's reader had to say
-PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& files,
-                       std::vector<std::vector<std::string>>* notes = nullptr);
+void add_input_options(OptionTable& app, InputOptions& options);
+/// What read_inputs has to say beside the cloud.
+struct ReadReport {
+  std::vector<InputFile> files;                ///< with path, hash and count
+  std::vector<std::vector<std::string>> notes; ///< what each file's reader had to say
+  std::vector<std::uint32_t> rows;             ///< of the files, one per point, where --crop or --thin left some out
+  std::size_t rows_read = 0;
+};
+/// Reads and merges, then leaves out what --crop and --thin say. Sensors that the options name take the place of those
+/// that the files hold. \param progress gets the fraction done
+PointCloud read_inputs(const InputOptions& options, ReadReport& report,
+                       const std::function<void(double)>& progress = {});
 
-/// Progress on stderr. `mode` is auto, bar, jsonl or off; auto shows a bar on a terminal.
-std::unique_ptr<Observer> make_observer(const std::string& mode, const std::filesystem::path& dump_folder, bool quiet);
-/// Takes the bar off the terminal before anything else is printed.
-void clear_progress();
-
-/// Ctrl-C asks the running stage to stop; a second one ends the program at once.
-void catch_interrupts();
-bool interrupted();
-
-void print_warning(const std::string& text);
 /// A few lines for people: counts, guarantees, size.
 std::string describe(const MeshSummary& mesh);
 /// 12345678 -> 12,345,678

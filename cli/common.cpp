@@ -1,27 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <sstream>
 
 #include "command.h"
+#include "selection.h"
+#include "standard_streams.h"
 
 namespace eigencrust::cli {
 namespace {
-
-// A signal handler can reach nothing but a variable with static storage.
-volatile std::sig_atomic_t interrupt_count = 0;
-
-void on_interrupt(int signal_number) {
-  interrupt_count = interrupt_count + 1;
-  if (interrupt_count > 1) {
-    std::signal(signal_number, SIG_DFL);
-    std::raise(signal_number);
-  }
-}
 
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts;
@@ -91,69 +80,119 @@ void note_sensors(const PointCloud& cloud, std::vector<InputFile>& files) {
 
 } // namespace
 
-void catch_interrupts() {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
-}
-
-bool interrupted() { return interrupt_count > 0; }
-
-Parsed parse(CLI::App& app, const Arguments& arguments) {
-  std::vector<std::string> reversed(arguments.words.rbegin(), arguments.words.rend());
-  try {
-    app.parse(std::move(reversed));
-  } catch (const CLI::CallForHelp& help) {
-    return {true, app.exit(help)};
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorKind::usage, "command line", error.what(), "see --help");
-  }
-  return {};
-}
-
-void add_input_options(CLI::App& app, InputOptions& options) {
+void add_input_options(OptionTable& app, InputOptions& options) {
+  app.begin_chapter("Reading");
   app.add_option(
          "INPUT", options.paths,
-         "Point clouds (ply e57 las ptx pcd pts npz npy xyz txt asc csv obj off stl); several are several scans")
-      ->required();
+         "Point clouds (ply e57 las ptx pcd pts npz npy xyz txt asc csv obj off stl); several are several scans; "
+         "- is standard input")
+      ->required()
+      ->type_name(file_to_read);
   app.add_option("--columns", options.columns,
-                 "Names of a text file's columns in order, e.g. x,y,z,red,green,blue; - skips one");
+                 "Names of a text file's columns in order, e.g. x,y,z,red,green,blue; - skips one")
+      ->type_name("LIST");
+  app.add_option("--crop", options.crop,
+                 "Keep what lies in a box, x,y,z,x,y,z or x,y,x,y, or in a polygon, x,y;x,y;x,y or a file of rows x y")
+      ->type_name(shape_or_file);
+  app.add_option("--thin", options.thin,
+                 "Keep one point of each cube with this edge: a length, or N% of the box's diagonal")
+      ->type_name("L");
   app.add_option("--scan-index", options.scan_index,
-                 "Scan number of each point of one file that holds several scans: bytes (.u8) or one number per line");
+                 "Scan number of each point of one file that holds several scans: bytes (.u8) or one number per line")
+      ->type_name(file_to_read);
   app.add_option("--pcd-viewpoint", options.pcd_viewpoint,
                  "VIEWPOINT of PCD files: auto (sensor unless 0 0 0), sensor (its position), pose (also moves the "
                  "points) or none")
-      ->check(CLI::IsMember({"auto", "sensor", "pose", "none"}))
+      ->one_of({"auto", "sensor", "pose", "none"})
       ->capture_default_str();
+  app.begin_chapter("What is known beforehand");
   app.add_option("--sensor", options.sensor,
                  "x,y,z where the scanner stood for an input, instead of what the file says; repeat for each input")
-      ->allow_extra_args(false);
+      ->type_name("X,Y,Z");
   app.add_option("--sensor-direction", options.sensor_direction,
                  "x,y,z direction from the surface to the scanner, for parallel rays; repeat for each input")
-      ->allow_extra_args(false);
+      ->type_name("X,Y,Z");
   app.add_option("--sensors", options.sensors,
-                 "File with a row scan,x,y,z for each scan, or scan,dx,dy,dz under a header; none: ignore all sensors");
+                 "File with a row scan,x,y,z for each scan, or scan,dx,dy,dz under a header; none: ignore all sensors")
+      ->type_name(file_to_read);
 }
 
-PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& files,
-                       std::vector<std::vector<std::string>>* notes) {
+namespace {
+
+/// As they are read or, through a pipe, as they were read.
+PointCloud read_input(const std::string& path, const ReadOptions& options, ReadReport& report) {
+  const ReadableFile file(path);
+  return file.reading([&] {
+    std::vector<std::string> said;
+    std::string sha256;
+    PointCloud cloud = read_point_cloud(file.path(), options, &said, &sha256);
+    report.notes.push_back(std::move(said));
+    report.files.push_back({path, std::move(sha256), cloud.points.size(), {}, 0});
+    return cloud;
+  });
+}
+
+/// \throws Error{usage}
+LengthChoice parse_thinning(const std::string& text) {
+  const LengthChoice length = parse_length_choice("edge for --thin", text);
+  if (length.kind == LengthChoice::Kind::automatic || length.kind == LengthChoice::Kind::off)
+    fail_usage("--thin takes no " + text, "give a length or N%");
+  return length;
+}
+
+double thinning_edge(const LengthChoice& length, const PointCloud& cloud) {
+  Box3 box;
+  for (const Vec3& p : cloud.points)
+    if (is_finite(p)) box.add(p);
+  const double edge = *length.given(box.diagonal());
+  if (!(edge > 0)) fail_usage("the points are all in one place: a share of their box is no length", "leave out --thin");
+  return edge;
+}
+
+/// Keeps some rows, and notes which of the files' rows these are.
+void select(PointCloud& cloud, const std::vector<std::uint32_t>& kept, ReadReport& report) {
+  if (report.rows.empty()) {
+    report.rows = kept;
+  } else {
+    std::vector<std::uint32_t> rows;
+    for (const std::uint32_t i : kept) rows.push_back(report.rows[i]);
+    report.rows = std::move(rows);
+  }
+  keep_rows(cloud, kept);
+}
+
+void crop_and_thin(PointCloud& cloud, const std::optional<Crop>& crop, const std::optional<LengthChoice>& thin,
+                   ReadReport& report) {
+  report.rows_read = cloud.points.size();
+  if (crop) select(cloud, rows_within(cloud.points, *crop), report);
+  if (crop && cloud.points.empty())
+    throw Error(ErrorKind::input, "--crop", "none of the " + grouped(report.rows_read) + " points lies in it",
+                "compare it with the bounds that eigencrust info shows");
+  if (thin) select(cloud, thinned_rows(cloud.points, thinning_edge(*thin, cloud)), report);
+}
+
+} // namespace
+
+PointCloud read_inputs(const InputOptions& options, ReadReport& report, const std::function<void(double)>& progress) {
   const std::vector<Sensor> sensors = sensors_of_inputs(options);
+  const std::optional<Crop> crop = options.crop.empty() ? std::nullopt : std::optional(parse_crop(options.crop));
+  const std::optional<LengthChoice> thin =
+      options.thin.empty() ? std::nullopt : std::optional(parse_thinning(options.thin));
   // What is replaced need not be looked for.
   const ReadOptions read_options{split(options.columns), viewpoint_of(options.pcd_viewpoint),
                                  sensors.empty() && options.sensors.empty()};
   PointCloud cloud;
-  for (const std::string& path : options.paths) {
-    std::vector<std::string> said;
-    PointCloud next = read_point_cloud(path, read_options, &said);
-    if (notes != nullptr) notes->push_back(std::move(said));
+  for (std::size_t i = 0; i < options.paths.size(); ++i) {
+    PointCloud next = read_input(options.paths[i], read_options, report);
     if (!sensors.empty()) {
-      next.sensors.assign(1, sensors[files.size()]);
+      next.sensors.assign(1, sensors[i]);
       next.sensor_of.assign(next.points.size(), 0);
     }
-    files.push_back({path, sha256_of_file(path), next.points.size(), {}, 0});
-    if (files.size() == 1)
+    if (i == 0)
       cloud = std::move(next);
     else
       append_scan(cloud, std::move(next));
+    if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(options.paths.size()));
     if (interrupted()) throw Error(ErrorKind::cancelled, "reading", "cancelled", "start again to finish");
   }
   if (!options.scan_index.empty()) {
@@ -162,13 +201,9 @@ PointCloud read_inputs(const InputOptions& options, std::vector<InputFile>& file
     cloud.scan_index = read_scan_index(options.scan_index, cloud.points.size());
   }
   if (!options.sensors.empty() && options.sensors != "none") read_scan_sensors(options.sensors, cloud);
-  note_sensors(cloud, files);
+  note_sensors(cloud, report.files);
+  crop_and_thin(cloud, crop, thin, report);
   return cloud;
-}
-
-void print_warning(const std::string& text) {
-  clear_progress();
-  std::fprintf(stderr, "eigencrust: warning: %s\n", text.c_str());
 }
 
 std::string grouped(std::uint64_t value) {
@@ -197,7 +232,7 @@ std::string describe(const MeshSummary& mesh) {
                           : "no (" + count(mesh.nonmanifold_edges, "edge", "edges") + ", " +
                                 count(mesh.nonmanifold_vertices, "vertex", "vertices") + ")");
   out << ", oriented: "
-      << (mesh.oriented() ? (mesh.volume >= 0 ? "yes" : "yes, inward")
+      << (mesh.oriented() ? (mesh.volume >= 0 || !mesh.closed() ? "yes" : "yes, inward")
                           : "no (" + count(mesh.inconsistent_edges, "edge", "edges") + ")")
       << "\n";
   if (mesh.degenerate_triangles > 0) out << "  degenerate triangles: " << grouped(mesh.degenerate_triangles) << "\n";

@@ -40,10 +40,10 @@ int compare_verb(const Arguments& arguments) {
   std::string mesh_path, reference_path;
   bool json = false;
   CompareOptions options;
-  CLI::App app("How far a mesh is from a reference: distances between points spread over both surfaces.",
-               "eigencrust compare");
-  app.add_option("MESH", mesh_path, "Mesh to judge (ply obj off stl)")->required();
-  app.add_option("REFERENCE", reference_path, "Mesh taken for the truth")->required();
+  OptionTable app("How far a mesh is from a reference: distances between points spread over both surfaces.",
+                  "eigencrust compare");
+  app.add_option("MESH", mesh_path, "Mesh to judge (ply obj off stl)")->required()->type_name(file_to_read);
+  app.add_option("REFERENCE", reference_path, "Mesh taken for the truth")->required()->type_name(file_to_read);
   app.add_option("--samples", options.samples, "Points on each surface")->capture_default_str();
   app.add_option("--seed", options.seed, "Seed of their places")->capture_default_str();
   app.add_option("--threshold", options.threshold, "Distance of the F-score; 0: 1 % of the reference's diagonal")
@@ -56,7 +56,7 @@ int compare_verb(const Arguments& arguments) {
     std::cout << json_of(c).dump(2) << "\n";
     return 0;
   }
-  std::cout << mesh_path << " against " << reference_path << "\n";
+  std::cout << printable(mesh_path) << " against " << printable(reference_path) << "\n";
   print("to the reference:  ", c.to_reference);
   print("from the reference:", c.from_reference);
   std::cout << "  F-score " << rounded(c.f_score) << " at " << rounded(c.threshold) << " (precision "

@@ -8,12 +8,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The bundled scan: beside an installed program, else in the source tree it was built from.
+/// The bundled scan: beside an installed program, else beside the one that was built.
 fs::path bundled_scan() {
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  for (const fs::path& folder :
-       {program.parent_path() / EIGENCRUST_EXAMPLES_INSTALLED, fs::path(EIGENCRUST_EXAMPLES_SOURCE)}) {
+  for (const char* place : {EIGENCRUST_EXAMPLES_INSTALLED, "examples"}) {
+    const fs::path folder = program.parent_path() / place;
     const fs::path scan = folder / "teapot_scan.ply";
     if (!fs::is_regular_file(scan, ignored)) continue;
     // The shorter of the two names, for people to read.
@@ -28,8 +28,10 @@ fs::path bundled_scan() {
 
 int demo_verb(const Arguments& arguments) {
   std::string folder = "eigencrust-demo";
-  CLI::App app("Reconstructs the bundled teapot scan: mesh, report and a picture of both.", "eigencrust demo");
-  app.add_option("-o,--output", folder, "Folder for teapot.ply, teapot.json and teapot.png")->capture_default_str();
+  OptionTable app("Reconstructs the bundled teapot scan: mesh, report and a picture of both.", "eigencrust demo");
+  app.add_option("-o,--output", folder, "Folder for teapot.ply, teapot.json and teapot.png")
+      ->type_name("DIR")
+      ->capture_default_str();
   if (const Parsed parsed = parse(app, arguments); parsed.done) return parsed.status;
   const std::string scan = bundled_scan().string();
   std::error_code error;
@@ -40,7 +42,7 @@ int demo_verb(const Arguments& arguments) {
                     report = (fs::path(folder) / "teapot.json").string();
   const auto show = [](const std::vector<std::string>& words) {
     std::cout << "$ eigencrust";
-    for (const std::string& word : words) std::cout << " " << word;
+    for (const std::string& word : words) std::cout << " " << printable(word);
     std::cout << std::endl;
     return words;
   };
@@ -49,7 +51,7 @@ int demo_verb(const Arguments& arguments) {
     std::vector<std::string> command{"eigencrust"};
     command.insert(command.end(), words.begin(), words.end());
     const bool named = words.front() == "check" || words.front() == "render";
-    return verb({{words.begin() + (named ? 1 : 0), words.end()}, command});
+    return verb({{words.begin() + (named ? 1 : 0), words.end()}, command, {}});
   };
   const int status = call(reconstruct_verb, {scan, "-o", mesh, "--report", report});
   if (status != 0) return status;

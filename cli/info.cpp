@@ -199,10 +199,11 @@ void print_forecast(const nlohmann::ordered_json& j) {
 
 void print(const nlohmann::ordered_json& j) {
   for (const auto& f : j["files"]) {
-    std::cout << f["path"].get<std::string>() << ": " << grouped(f["points"].get<std::uint64_t>()) << " points";
+    std::cout << printable(f["path"].get<std::string>()) << ": " << grouped(f["points"].get<std::uint64_t>())
+              << " points";
     if (j["files"].size() > 1) std::cout << ", forecast " << show_forecast(f["forecast"]);
     std::cout << "\n";
-    for (const auto& note : f["notes"]) std::cout << "  " << note.get<std::string>() << "\n";
+    for (const auto& note : f["notes"]) std::cout << "  " << printable(note.get<std::string>()) << "\n";
   }
   print_samples(j);
   print_forecast(j);
@@ -210,7 +211,7 @@ void print(const nlohmann::ordered_json& j) {
   if (j["attributes"].empty()) return;
   std::cout << "  attributes";
   for (const auto& a : j["attributes"])
-    std::cout << " " << a["name"].get<std::string>() << ":" << a["type"].get<std::string>()
+    std::cout << " " << printable(a["name"].get<std::string>()) << ":" << a["type"].get<std::string>()
               << (a["list"].get<bool>() ? "[]" : "");
   std::cout << "\n";
 }
@@ -221,16 +222,16 @@ int info_verb(const Arguments& arguments) {
   InputOptions input;
   bool json = false;
   unsigned threads = 0;
-  CLI::App app("What is in a point cloud.", "eigencrust info");
+  OptionTable app("What is in a point cloud.", "eigencrust info");
   add_input_options(app, input);
+  app.begin_chapter("Running");
   app.add_flag("--json", json, "Print the figures as JSON");
   app.add_option("--threads", threads, "Threads, 0 for all cores")->capture_default_str();
   if (const Parsed parsed = parse(app, arguments); parsed.done) return parsed.status;
-  std::vector<InputFile> files;
-  Notes notes;
-  const PointCloud cloud = read_inputs(input, files, &notes);
+  ReadReport read;
+  const PointCloud cloud = read_inputs(input, read);
   const Threads team(threads);
-  const nlohmann::ordered_json figures = collect(cloud, files, notes, team);
+  const nlohmann::ordered_json figures = collect(cloud, read.files, read.notes, team);
   if (json)
     std::cout << figures.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
   else

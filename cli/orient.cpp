@@ -2,23 +2,12 @@
 #include "points.h"
 
 namespace eigencrust::cli {
+namespace {
 
-int orient_verb(const Arguments& arguments) {
-  Request request;
-  bool drop_outliers = false;
-  CLI::App app("The cloud with unit normals that look outward; those of outliers are NaN.", "eigencrust orient");
-  add_input_options(app, request.input);
-  app.add_option("-o,--output", request.output,
-                 "Cloud to write (ply xyz txt asc csv): all rows in order, with nx, ny and nz")
-      ->required();
-  app.add_flag("--drop-outliers", drop_outliers, "Leave out the rows that have no normal");
-  add_method_options(app, request);
-  add_run_options(app, request);
-  if (const Parsed parsed = parse(app, arguments); parsed.done) return parsed.status;
-
+int add_normals(const Request& request, const std::vector<std::string>& command, const std::string& keep) {
   Options options = effective_options(request);
   options.point_results = true;
-  MethodRun run(request, arguments, OutputKind::cloud);
+  MethodRun run(request, command, OutputKind::cloud);
   run.reconstruct(options);
   for (const auto& [name, axis] : {std::pair{"nx", &Vec3::x}, std::pair{"ny", &Vec3::y}, std::pair{"nz", &Vec3::z}}) {
     std::vector<float> values;
@@ -26,7 +15,29 @@ int orient_verb(const Arguments& arguments) {
     for (const Vec3& normal : run.result.normals) values.push_back(static_cast<float>(normal.*axis));
     set_attribute(run.cloud, make_attribute(name, values));
   }
-  return write_points(run, request, drop_outliers);
+  return write_points(run, request, keep);
+}
+
+} // namespace
+
+int orient_verb(const Arguments& arguments) {
+  Request request;
+  std::string keep;
+  bool drop_outliers = false;
+  OptionTable app("The cloud with unit normals that look outward; those of outliers are NaN.", "eigencrust orient");
+  add_input_options(app, request.input);
+  add_output_options(app, request,
+                     "Cloud to write (ply pcd las xyz txt asc csv obj): all rows in order, with nx, ny and nz");
+  add_keep_option(app, keep);
+  app.add_flag("--drop-outliers", drop_outliers, "The same as --keep inliers");
+  add_method_options(app, request);
+  add_run_options(app, request);
+  app.find("--output")->required();
+  const Parsed parsed = parse(app, arguments);
+  if (parsed.done) return parsed.status;
+  if (drop_outliers) keep = "inliers";
+  return for_each_job(request, OutputKind::cloud,
+                      [&](const Request& job) { return add_normals(job, parsed.command, keep); });
 }
 
 } // namespace eigencrust::cli

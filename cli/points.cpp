@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <iostream>
+#include <ostream>
+
+#include "selection.h"
 
 namespace eigencrust::cli {
 namespace {
@@ -12,17 +14,6 @@ bool same_name(const std::string& a, const std::string& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
     return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
   });
-}
-
-void keep_rows(PointCloud& cloud, const std::vector<std::uint32_t>& rows) {
-  for (Attribute& attribute : cloud.attributes) attribute = gather(attribute, rows);
-  for (auto* index : {&cloud.scan_index, &cloud.sensor_of}) {
-    if (index->empty()) continue;
-    for (std::size_t i = 0; i < rows.size(); ++i) (*index)[i] = (*index)[rows[i]]; // rows increase
-    index->resize(rows.size());
-  }
-  for (std::size_t i = 0; i < rows.size(); ++i) cloud.points[i] = cloud.points[rows[i]];
-  cloud.points.resize(rows.size());
 }
 
 } // namespace
@@ -39,24 +30,32 @@ void set_attribute(PointCloud& cloud, Attribute attribute) {
   *found = std::move(attribute);
 }
 
-int write_points(MethodRun& run, const Request& request, bool drop_outliers) {
+void add_keep_option(OptionTable& app, std::string& keep) {
+  app.add_option("--keep", keep, "Write these rows only: inliers or outliers")->one_of({"inliers", "outliers"});
+}
+
+int write_points(MethodRun& run, const Request& request, const std::string& keep) {
   const Report& report = run.result.report;
-  std::vector<std::uint32_t> inliers;
+  std::vector<std::uint32_t> inliers, others;
   for (std::uint32_t row = 0; row < run.result.inlier.size(); ++row)
-    if (run.result.inlier[row]) inliers.push_back(row);
-  if (drop_outliers) keep_rows(run.cloud, inliers);
+    if (run.result.inlier[row])
+      inliers.push_back(row);
+    else if (is_finite(run.cloud.points[row]))
+      others.push_back(row);
+  if (!keep.empty()) keep_rows(run.cloud, keep == "inliers" ? inliers : others);
   if (!run.cloud.scan_index.empty()) { // as reconstruct writes it with the vertices
     run.cloud.attributes.push_back(make_attribute("scan_index", run.cloud.scan_index));
     run.cloud.scan_index.clear();
   }
-  run.finish(write_point_cloud(request.output, run.cloud, run.write_options()));
-  if (!request.quiet) {
-    std::cout << request.output << ": " << grouped(run.cloud.points.size()) << " points in " << run.cost() << "\n  "
-              << grouped(inliers.size()) << " inliers, " << grouped(report.points - report.nonfinite - inliers.size())
-              << " outliers";
-    if (report.nonfinite > 0) std::cout << ", " << grouped(report.nonfinite) << " not finite";
-    std::cout << (drop_outliers ? "; only the inliers are written\n" : "\n");
-  }
+  run.finish([&](OutputFiles& files, const std::string& path, const WriteOptions& how) {
+    return files.add_point_cloud(path, run.cloud, how);
+  });
+  std::ostream& out = run.summary();
+  out << printable(request.output) << ": " << grouped(run.cloud.points.size()) << " points in " << run.cost() << "\n"
+      << run.selection() << "  " << grouped(inliers.size()) << " inliers, "
+      << grouped(report.points - report.nonfinite - inliers.size()) << " outliers";
+  if (report.nonfinite > 0) out << ", " << grouped(report.nonfinite) << " not finite";
+  out << (keep.empty() ? "\n" : "; only the " + keep + " are written\n");
   return run.status();
 }
 

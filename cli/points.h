@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What orient and classify share: the cloud goes out with more columns than it came in with.
+/// What orient and outliers share: the cloud goes out with more columns than it came in with.
 #pragma once
 
 #include "method.h"
@@ -10,7 +10,11 @@ namespace eigencrust::cli {
 /// Takes the place of the attribute of that name, in upper or lower case, or comes last.
 void set_attribute(PointCloud& cloud, Attribute attribute);
 
-/// Writes run.cloud, the report and the summary. \return the exit status
-int write_points(MethodRun& run, const Request& request, bool drop_outliers);
+/// Which rows are written: all, inliers or outliers.
+void add_keep_option(OptionTable& app, std::string& keep);
+
+/// Writes run.cloud, the report and the summary. \param keep as the option says; empty: all
+/// \return the exit status
+int write_points(MethodRun& run, const Request& request, const std::string& keep);
 
 } // namespace eigencrust::cli

@@ -5,6 +5,8 @@ function(eigencrust_flags target)
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wcast-qual -Wnon-virtual-dtor)
   # Without fused multiply-add a result does not depend on which instructions the compiler picked.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
+  # The standard library checks each access to its containers.
+  target_compile_definitions(${target} PRIVATE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
   if(EIGENCRUST_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

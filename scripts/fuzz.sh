@@ -4,8 +4,18 @@
 # Seeds are those in fuzz/seeds and the real files in $EIGENCRUST_DATA/formats, else ../shared/data/formats,
 # where there are any.
 # Inputs that fail are left in build-fuzz/found. Usage: scripts/fuzz.sh [SECONDS per format, 5 by default] [FORMAT...]
+#
+# scripts/fuzz.sh method [COUNT] [FIRST_SEED] sends random clouds with random options through the method instead, under
+# the same sanitizers, and looks at each mesh; a seed that fails is printed, build-asan/fuzz_method show SEED shows it.
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/packages.sh"
+
+if [ "${1:-}" = method ]; then
+  install_packages "${build_packages[@]}" "${test_packages[@]}"
+  configure asan build-asan
+  cmake --build "$repository/build-asan" --parallel "$(job_count)" --target fuzz_method
+  exec "$repository/build-asan/fuzz_method" "${3:-1}" "${2:-1000}"
+fi
 
 seconds=${1:-5}
 case $seconds in '' | *[!0-9]*) fail "SECONDS is a whole number, not '$seconds'" ;; esac

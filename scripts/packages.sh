@@ -6,8 +6,9 @@ repository=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 
 # libcgal-dev brings Boost, GMP and MPFR.
 build_packages=(g++ cmake ninja-build libcgal-dev libeigen3-dev libspectra-dev libnanoflann-dev
-  nlohmann-json3-dev libtbb-dev libpng-dev zlib1g-dev libssl-dev libcli11-dev libpugixml-dev)
-test_packages=(libgtest-dev libgmock-dev clang-format)
+  nlohmann-json3-dev libtbb-dev libpng-dev zlib1g-dev libssl-dev libpugixml-dev)
+tool_packages=(libcli11-dev) # of the tools and the benchmarks
+test_packages=("${tool_packages[@]}" libgtest-dev libgmock-dev clang-format)
 fuzz_packages=(clang libclang-rt-14-dev)
 
 fail() {

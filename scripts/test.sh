@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds everything and runs all tests: format, unit, property, hard clouds, command line, installed package, and the
-# unit tests and the hard clouds once more under the address and undefined-behaviour sanitizers.
+# unit tests, the hard clouds and random clouds under the address and undefined-behaviour sanitizers; the short form of
+# scripts/faults.sh.
 # Real scans are looked for in $EIGENCRUST_DATA, else in ../shared/data; tests skip without them.
 # Usage: scripts/test.sh [options for ctest], for example scripts/test.sh -R cli
 set -euo pipefail
@@ -15,7 +16,7 @@ install_packages "${build_packages[@]}" "${test_packages[@]}"
 
 step "sanitizer build"
 configure asan build-asan
-cmake --build "$repository/build-asan" --parallel "$(job_count)" --target unit_tests hard_tests
+cmake --build "$repository/build-asan" --parallel "$(job_count)" --target unit_tests hard_tests fuzz_method
 
 step "build"
 configure test build-test -DEIGENCRUST_SANITIZED_BUILD="$repository/build-asan"

@@ -237,11 +237,16 @@ std::string fault_in(const Surface& surface, const Scene& scene, const Tetrahedr
         mesh.vertices[v] != t.positions[sample_of[v]])
       return numbered("no sample: vertex", v);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (labels[inside[i]] != Label::inside) return numbered("nothing behind triangle", i);
     const auto& corners = t.tetrahedra[inside[i]];
-    for (const std::uint32_t v : mesh.triangles[i])
-      if (v >= sample_of.size() || std::find(corners.begin(), corners.end(), sample_of[v]) == corners.end())
-        return numbered("no face of its tetrahedron: triangle", i);
+    std::size_t opposite = 0 + 1 + 2 + 3;
+    for (const std::uint32_t v : mesh.triangles[i]) {
+      const auto at = v >= sample_of.size() ? corners.end() : std::find(corners.begin(), corners.end(), sample_of[v]);
+      if (at == corners.end()) return numbered("no face of its tetrahedron: triangle", i);
+      opposite -= static_cast<std::size_t>(at - corners.begin());
+    }
+    // Either may be the inner side: where a shell was dropped, its cavity is a body.
+    const TetrahedronIndex before = t.neighbours[inside[i]][opposite];
+    if (!before.valid() || labels[before] == labels[inside[i]]) return numbered("nothing divided by triangle", i);
     if (!(support[i] >= 0 && support[i] <= 1)) return numbered("no share: the support of triangle", i);
   }
   if (!options.manifold || options.trim || options.facade) return {};

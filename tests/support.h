@@ -18,15 +18,16 @@
 
 #include <eigencrust/error.h>
 
+#include "source_folder.h"
+
 namespace eigencrust {
 
 /// A file of the real data, which may be absent: see EIGENCRUST_NEED_DATA. The folder is
 /// EIGENCRUST_DATA of the environment, else shared/data beside the checkout.
 inline std::filesystem::path data_path(std::string_view relative) {
   const char* folder = std::getenv("EIGENCRUST_DATA");
-  const std::filesystem::path root = folder != nullptr && *folder != '\0'
-                                         ? std::filesystem::path(folder)
-                                         : std::filesystem::path(EIGENCRUST_SOURCE_DIR) / ".." / "shared" / "data";
+  const std::filesystem::path root =
+      folder != nullptr && *folder != '\0' ? std::filesystem::path(folder) : source_folder() / ".." / "shared" / "data";
   return root / relative;
 }
 

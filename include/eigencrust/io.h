@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -40,12 +41,16 @@ struct ReadOptions {
 /// Sensors are taken from the poses of e57 and ptx scans, the VIEWPOINT of a pcd file, the array
 /// sensor_position of an npz file, columns sx sy sz (or x_origin y_origin z_origin, or vp_x vp_y vp_z) of
 /// any format, and from what COLMAP writes beside a ply file: NAME.ply.vis with images.bin or images.txt.
-/// \param notes if given, gets a sentence for each thing that was dropped or could be read in two ways
+/// \param notes  if given, gets a sentence for each thing that was dropped or could be read in two ways
+/// \param sha256 if given, gets the digest of the bytes that were read; a pipe can be read only once
 /// \throws Error{input} naming file and line (text) or byte offset (binary) when the file is missing,
 ///         truncated, malformed or of an unknown format; memory is never allocated by a count that the
 ///         file claims but does not hold.
 PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options = {},
-                            std::vector<std::string>* notes = nullptr);
+                            std::vector<std::string>* notes = nullptr, std::string* sha256 = nullptr);
+
+/// The files beside `path` that read_point_cloud(path) reads as well, if they are there now.
+std::vector<std::filesystem::path> companion_files(const std::filesystem::path& path);
 
 /// Reads a mesh (ply, obj, off, stl); polygons are split into triangle fans. STL corners with equal
 /// coordinates become one vertex.
@@ -79,6 +84,7 @@ struct WriteOptions {
   CoordinateType coordinates = CoordinateType::automatic;
   double spacing = 0;                ///< median sample spacing; 0: the median edge length is taken
   std::vector<std::string> comments; ///< written where the format has room for them
+  std::string format{};              ///< "ply", "obj" ...; empty: that of the name's extension
 };
 
 struct WriteResult {
@@ -98,17 +104,53 @@ struct WriteResult {
 ///         vertices equal even with an offset.
 WriteResult write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options = {});
 
-/// Writes a cloud with its attributes (ply, xyz/txt/asc/csv), atomically as above.
+/// Writes a cloud with its attributes (ply, pcd, las, xyz/txt/asc/csv, obj), atomically as above. PCD is binary
+/// (version 0.7); LAS 1.4 has what it has no field for as extra bytes; OBJ keeps places, colours and normals only.
 WriteResult write_point_cloud(const std::filesystem::path& path, const PointCloud& cloud,
                               const WriteOptions& options = {});
 
-/// Is there a writer for this extension? For refusing a name before the work starts.
-bool can_write_mesh(const std::filesystem::path& path);
-bool can_write_point_cloud(const std::filesystem::path& path);
+/// Is there a writer for this extension, or this format if one is given? For refusing a name before the work starts.
+bool can_write_mesh(const std::filesystem::path& path, const std::string& format = {});
+bool can_write_point_cloud(const std::filesystem::path& path, const std::string& format = {});
+
+/// Finds out now what write_file_atomically would find out in the end: is there a folder in which a file can be made,
+/// with room for it? Leaves nothing behind. \throws Error{input}
+void require_writable(const std::filesystem::path& path);
 
 /// Writes any file atomically: `write` fills the stream of a temporary file in the same folder.
 /// \throws Error{input} when it cannot be created, written or renamed; whatever `write` throws.
 void write_file_atomically(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
+
+/// Files that appear together: each is written beside its place first, and only when all are finished they take their
+/// places, which needs neither memory nor room on the disk. Those that did not, leave nothing.
+class OutputFiles {
+ public:
+  OutputFiles();
+  ~OutputFiles();
+  OutputFiles(const OutputFiles&) = delete;
+  OutputFiles& operator=(const OutputFiles&) = delete;
+
+  // As write_mesh, write_point_cloud and write_file_atomically, but the file does not appear. Devices and pipes are
+  // written at once.
+  WriteResult add_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options = {});
+  WriteResult add_point_cloud(const std::filesystem::path& path, const PointCloud& cloud,
+                              const WriteOptions& options = {});
+  void add(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
+
+  /// \throws Error{input} naming the first file that cannot take its place; those before it have
+  void put_in_place();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Removes the temporaries of all files that are being written. Calls nothing that a signal handler may not; the
+/// process should end after it.
+void remove_temporaries() noexcept;
+
+/// The file that symbolic links lead to; it need not exist.
+std::filesystem::path follow_links(const std::filesystem::path& path);
 
 /// Lower-case hexadecimal SHA-256 of the file's bytes.
 std::string sha256_of_file(const std::filesystem::path& path);

@@ -26,6 +26,11 @@ std::uint64_t further_bytes(const PointCloud& cloud);
 /// \throws Error{memory} when the forecast for the cloud exceeds `limit` bytes; 0: no limit
 void check_memory(const PointCloud& cloud, std::uint64_t limit);
 
+/// The same while the tetrahedra grow: a few clouds (two curves that wind around each other) have as many as the square
+/// of their samples. \param further as above
+/// \throws Error{memory} when so many tetrahedra will take more than `limit` bytes; 0: no limit
+void check_memory_of_tetrahedra(std::uint64_t tetrahedra, std::uint64_t further, std::uint64_t limit);
+
 /// Bytes that this process may take in all: what the system has to spare beside what the process holds already,
 /// or the limit of its control group (versions 1 and 2) if that is less. 0: not known.
 /// \param root where the file system begins, for tests

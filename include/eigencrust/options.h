@@ -44,7 +44,7 @@ enum class GlobalSign : std::uint8_t {
 enum class SurfaceKind : std::uint8_t {
   automatic, ///< fitted where noise was measured, else samples
   samples,   ///< at input points
-  fitted     ///< in the middle of the samples around. docs/decisions/0028
+  fitted     ///< in the middle of the samples around. docs/decisions/0036
 };
 enum class Smoothing : std::uint8_t {
   laplacian, ///< §3.6: each vertex to the centroid of its neighbours; shrinks

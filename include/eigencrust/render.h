@@ -6,11 +6,18 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <eigencrust/types.h>
 
 namespace eigencrust {
+
+/// What of a cloud has to fit the picture.
+enum class Framing : std::uint8_t {
+  bulk, ///< all but points that lie apart, unless these are a tenth of the size at most
+  all
+};
 
 struct RenderOptions {
   std::uint32_t width = 1200, height = 900; ///< pixels, 16 to 16384
@@ -18,6 +25,7 @@ struct RenderOptions {
   double elevation = 20;                    ///< degrees above the horizon
   double roll = 0;                          ///< degrees that the camera turns clockwise around its line of sight
   double zoom = 1;                          ///< 1: what is seen of the object just fits the picture
+  Framing framing = Framing::bulk;          ///< meshes are framed whole
   Vec3 up{0, 1, 0};                         ///< which axis points up
   double point_size = 2;                    ///< pixels, for clouds
   /// Keep what lies at dot(p - clip_point, clip_normal) <= 0; zero normal: no clipping (a cutaway).
@@ -42,6 +50,18 @@ Image render(const TriangleMesh& mesh, const RenderOptions& options = {});
 /// Pictures of several objects in one frame: same scale, same place. What fits the picture at zoom 1 is all of them
 /// together. \throws as render(), also when nothing of one of them is left to draw
 std::vector<Image> render_alike(const std::vector<TriangleMesh>& meshes, const RenderOptions& options = {});
+
+/// Pictures of the objects from several sides, all at one scale: those of the first object by side, then those of the
+/// second ... \param sides differ in azimuth, elevation and roll; each has the picture's size and the zoom.
+/// \throws as render_alike()
+std::vector<Image> render_sides(const std::vector<TriangleMesh>& meshes, const std::vector<RenderOptions>& sides);
+
+/// Options to look from a side, as on a drawing: front, back, left, right, top, bottom, or corner (the default view).
+/// The front is where x runs to the right and the up axis up. \throws Error{usage}
+RenderOptions seen_from(const std::string& side, RenderOptions options);
+
+/// Puts pictures one below the other. \throws Error{usage} unless all have one width.
+Image stacked(const std::vector<Image>& images);
 
 /// Puts pictures side by side, for comparisons. \throws Error{usage} unless all have one height.
 Image beside(const std::vector<Image>& images);

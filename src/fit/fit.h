@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The surface through the middle of the noise (not in the paper; docs/decisions/0028).
+/// The surface through the middle of the noise (not in the paper; docs/decisions/0036).
 #pragma once
 
 #include <span>

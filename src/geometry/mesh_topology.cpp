@@ -7,31 +7,23 @@
 
 #include <eigencrust/error.h>
 
+#include "parallel/compressed_rows.h"
+
 namespace eigencrust {
 
 std::vector<Side> sorted_sides(std::span<const Triangle> triangles, std::size_t vertices, const Threads& threads) {
   // Counting sort by the lower vertex, then each short list by itself: no search tree, no hashing.
-  std::vector<std::size_t> begin(vertices + 1, 0);
-  const auto for_each_side = [&](auto&& visit) {
+  auto rows = build_rows<Side>(vertices, [&](auto&& visit) {
     std::uint32_t number = 0;
     for (const Triangle& t : triangles)
       for (int k = 0; k < 3; ++k, ++number) {
         const std::uint32_t from = t[k], to = t[(k + 1) % 3];
-        if (from != to) visit(Side{std::min(from, to), std::max(from, to), number, from < to});
+        if (from != to) visit(std::min(from, to), Side{std::min(from, to), std::max(from, to), number, from < to});
       }
-  };
-  for_each_side([&](const Side& s) { ++begin[s.low + 1]; });
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<Side> sides(begin.back());
-  std::vector<std::size_t> place(begin.begin(), begin.end() - 1);
-  for_each_side([&](const Side& s) { sides[place[s.low]++] = s; });
-  for_each_index(threads, vertices, [&](std::size_t v) {
-    std::sort(sides.begin() + static_cast<std::ptrdiff_t>(begin[v]),
-              sides.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]), [](const Side& a, const Side& b) {
-                return a.high < b.high || (a.high == b.high && a.number < b.number);
-              });
   });
-  return sides;
+  sort_rows(rows, threads,
+            [](const Side& a, const Side& b) { return a.high < b.high || (a.high == b.high && a.number < b.number); });
+  return std::move(rows.item);
 }
 
 std::vector<std::uint32_t> first_equal_vertex(std::span<const Vec3> vertices) {

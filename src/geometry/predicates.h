@@ -8,6 +8,9 @@
 
 namespace eigencrust {
 
+/// What rounding has not touched is larger than this share of the terms it was made of, by far.
+inline const double half_the_digits = std::sqrt(std::numeric_limits<double>::epsilon());
+
 /// Sign of dot(cross(b-a, c-a), d-a): +1 when d sees the triangle abc counter-clockwise, 0 when coplanar.
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);

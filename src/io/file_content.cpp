@@ -12,6 +12,8 @@
 
 #include <eigencrust/error.h>
 
+#include "io/system_call.h"
+
 namespace eigencrust::io {
 namespace {
 
@@ -30,7 +32,7 @@ std::string system_message(int code) { return std::generic_category().message(co
 } // namespace
 
 FileContent::FileContent(const std::filesystem::path& path) : name_(path.string()) {
-  const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const Descriptor file(uninterrupted([&] { return open(path.c_str(), O_RDONLY | O_CLOEXEC); }));
   if (file.value < 0) fail("cannot open the file: " + system_message(errno), "check the name and the permissions");
   struct stat status {};
   if (fstat(file.value, &status) != 0) fail("cannot read the file: " + system_message(errno), "check the disk");
@@ -46,8 +48,8 @@ FileContent::FileContent(const std::filesystem::path& path) : name_(path.string(
       std::copy_n(data_.get(), size_, larger.get());
       data_ = std::move(larger);
     }
-    const ssize_t got = read(file.value, data_.get() + size_, capacity - size_);
-    if (got < 0 && errno == EINTR) continue;
+    const ssize_t got =
+        when_ready(file.value, POLLIN, [&] { return read(file.value, data_.get() + size_, capacity - size_); });
     if (got < 0) fail("cannot read the file: " + system_message(errno), "check the disk");
     if (got == 0) return;
     size_ += static_cast<std::size_t>(got);

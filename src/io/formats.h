@@ -45,6 +45,11 @@ using Body = std::function<void(std::ostream&)>;
 Body prepare_ply(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result);
 Body prepare_ply(const PointCloud& cloud, const WriteOptions& options, WriteResult& result);
 Body prepare_obj(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result);
+Body prepare_obj(const PointCloud& cloud, const WriteOptions& options, WriteResult& result);
+Body prepare_pcd(const PointCloud& cloud, const WriteOptions& options, WriteResult& result);
+/// The sensor that VIEWPOINT of a PCD file tells: all points have the same one.
+std::optional<Vec3> viewpoint_of(const PointCloud& cloud);
+Body prepare_las(const PointCloud& cloud, const WriteOptions& options, WriteResult& result);
 Body prepare_off(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result);
 Body prepare_stl(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result);
 /// \param separator between the fields; ',' writes the header line without a mark

@@ -95,43 +95,6 @@ void read_extras(std::string_view bytes, const Records& records, LasHeader& head
   if (without > 0) notes.push_back(plural(without, "byte") + " of each point without a description left out");
 }
 
-/// The columns by the format of the points.
-std::vector<LasField> fields_of(unsigned format, unsigned minor) {
-  using enum ScalarType;
-  std::vector<LasField> fields = {{"intensity", uint16, 12}};
-  const auto add = [&](std::initializer_list<LasField> more) { fields.insert(fields.end(), more); };
-  const bool is_new = format >= 6;
-  const std::size_t time = is_new ? 22 : 20;
-  std::size_t colour = is_new ? 30 : format == 2 ? 20 : 28;
-  if (is_new)
-    add({{"return_number", uint8, 14, 0, 4},
-         {"number_of_returns", uint8, 14, 4, 4},
-         {"synthetic", uint8, 15, 0, 1},
-         {"key_point", uint8, 15, 1, 1},
-         {"overlap", uint8, 15, 3, 1},
-         {"scanner_channel", uint8, 15, 4, 2},
-         {"scan_direction_flag", uint8, 15, 6, 1},
-         {"edge_of_flight_line", uint8, 15, 7, 1},
-         {"classification", uint8, 16},
-         {"user_data", uint8, 17},
-         {"scan_angle", int16, 18},
-         {"point_source_id", uint16, 20}});
-  else
-    add({{"return_number", uint8, 14, 0, 3},
-         {"number_of_returns", uint8, 14, 3, 3},
-         {"scan_direction_flag", uint8, 14, 6, 1},
-         {"edge_of_flight_line", uint8, 14, 7, 1}});
-  if (!is_new && minor == 0) add({{"classification", uint8, 15}}); // 1.0 knows no flags
-  if (!is_new && minor > 0)
-    add({{"classification", uint8, 15, 0, 5}, {"synthetic", uint8, 15, 5, 1}, {"key_point", uint8, 15, 6, 1}});
-  if (!is_new) add({{"scan_angle_rank", int8, 16}, {"user_data", uint8, 17}, {"point_source_id", uint16, 18}});
-  if (is_new || format == 1 || format >= 3) add({{"gps_time", float64, time}});
-  if (format == 2 || format == 3 || format == 5 || format == 7 || format == 8 || format == 10)
-    add({{"red", uint16, colour}, {"green", uint16, colour + 2}, {"blue", uint16, colour + 4}});
-  if (format == 8 || format == 10) add({{"nir", uint16, colour + 6}});
-  return fields;
-}
-
 Vec3 numbers_at(const FileContent& file, std::size_t at, const char* what) {
   const std::string_view bytes = file.bytes();
   const Vec3 v{value_at<double>(bytes, at), value_at<double>(bytes, at + 8), value_at<double>(bytes, at + 16)};
@@ -191,6 +154,44 @@ std::size_t las_type_size(unsigned type) {
   return type < sizes.size() ? sizes[type] : 0;
 }
 
+std::vector<LasField> las_fields(unsigned format, unsigned minor) {
+  using enum ScalarType;
+  std::vector<LasField> fields = {{"intensity", uint16, 12}};
+  const auto add = [&](std::initializer_list<LasField> more) { fields.insert(fields.end(), more); };
+  const bool is_new = format >= 6;
+  const std::size_t time = is_new ? 22 : 20;
+  std::size_t colour = is_new ? 30 : format == 2 ? 20 : 28;
+  if (is_new)
+    add({{"return_number", uint8, 14, 0, 4},
+         {"number_of_returns", uint8, 14, 4, 4},
+         {"synthetic", uint8, 15, 0, 1},
+         {"key_point", uint8, 15, 1, 1},
+         {"overlap", uint8, 15, 3, 1},
+         {"scanner_channel", uint8, 15, 4, 2},
+         {"scan_direction_flag", uint8, 15, 6, 1},
+         {"edge_of_flight_line", uint8, 15, 7, 1},
+         {"classification", uint8, 16},
+         {"user_data", uint8, 17},
+         {"scan_angle", int16, 18},
+         {"point_source_id", uint16, 20}});
+  else
+    add({{"return_number", uint8, 14, 0, 3},
+         {"number_of_returns", uint8, 14, 3, 3},
+         {"scan_direction_flag", uint8, 14, 6, 1},
+         {"edge_of_flight_line", uint8, 14, 7, 1}});
+  if (!is_new && minor == 0) add({{"classification", uint8, 15}}); // 1.0 knows no flags
+  if (!is_new && minor > 0)
+    add({{"classification", uint8, 15, 0, 5}, {"synthetic", uint8, 15, 5, 1}, {"key_point", uint8, 15, 6, 1}});
+  if (!is_new) add({{"scan_angle_rank", int8, 16}, {"user_data", uint8, 17}, {"point_source_id", uint16, 18}});
+  if (is_new || format == 1 || format >= 3) add({{"gps_time", float64, time}});
+  if (format == 2 || format == 3 || format == 5 || format == 7 || format == 8 || format == 10)
+    add({{"red", uint16, colour}, {"green", uint16, colour + 2}, {"blue", uint16, colour + 4}});
+  if (format == 8 || format == 10) add({{"nir", uint16, colour + 6}});
+  return fields;
+}
+
+std::size_t las_record_bytes(unsigned format) { return record_sizes[format]; }
+
 LasHeader read_las_header(const FileContent& file, std::vector<std::string>& notes) {
   LasHeader header;
   std::size_t header_size = 0;
@@ -208,7 +209,7 @@ LasHeader read_las_header(const FileContent& file, std::vector<std::string>& not
   header.offset = numbers_at(file, 155, "offset");
   if (header.scale.x == 0 || header.scale.y == 0 || header.scale.z == 0)
     file.fail_at_byte(131, "a scale of the coordinates is 0,", repair);
-  header.fields = fields_of(header.format, header.minor);
+  header.fields = las_fields(header.format, header.minor);
   read_extras(bytes, records, header, notes);
   return header;
 }

@@ -35,6 +35,11 @@ struct LasExtra {
 /// Bytes of one value of that type.
 std::size_t las_type_size(unsigned type);
 
+/// The columns of a format of points, 0 to 10, in version 1.minor.
+std::vector<LasField> las_fields(unsigned format, unsigned minor);
+/// Bytes of one point without extra ones.
+std::size_t las_record_bytes(unsigned format);
+
 struct LasHeader {
   unsigned minor = 0;  ///< version 1.minor
   unsigned format = 0; ///< of the points, 0 to 10

@@ -123,6 +123,32 @@ class ObjReader {
   std::uint64_t largest_line_ = 0; ///< 0: no face yet
 };
 
+/// `v x y z`, with the colour where there is one.
+void append_vertex(std::string& text, const Vec3& p, const std::optional<ColourColumns>& colours, std::size_t row,
+                   bool as_float) {
+  text += "v ";
+  append_point(text, p, ' ', as_float);
+  if (colours) {
+    for (const Attribute* channel : colours->rgb) {
+      text += ' ';
+      // A float's own digits: as a double it would have eight more that mean nothing.
+      append_coordinate(text, colour_fraction(*channel, row), channel->type == ScalarType::float32);
+    }
+  }
+  text += '\n';
+}
+
+/// nx, ny and nz; empty: they are not all there.
+std::vector<const Attribute*> find_normals(const std::vector<Attribute>& attributes) {
+  std::vector<const Attribute*> normals;
+  for (const char* name : {"nx", "ny", "nz"}) {
+    const Attribute* column = find_attribute(attributes, name);
+    if (column == nullptr || column->is_list) return {};
+    normals.push_back(column);
+  }
+  return normals;
+}
+
 } // namespace
 
 TriangleMesh read_obj(const FileContent& file) { return ObjReader(file).read(); }
@@ -137,16 +163,7 @@ Body prepare_obj(const TriangleMesh& mesh, const WriteOptions& options, WriteRes
     TextBuffer buffer(out);
     append_comments(buffer.text(), "# ", comments);
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-      buffer.text() += "v ";
-      append_point(buffer.text(), mesh.vertices[i], ' ', as_float);
-      if (colours) {
-        for (const Attribute* channel : colours->rgb) {
-          buffer.text() += ' ';
-          // A float's own digits: as a double it would have eight more that mean nothing.
-          append_coordinate(buffer.text(), colour_fraction(*channel, i), channel->type == ScalarType::float32);
-        }
-      }
-      buffer.text() += '\n';
+      append_vertex(buffer.text(), mesh.vertices[i], colours, i, as_float);
       buffer.flush_if_full();
     }
     for (const auto& triangle : mesh.triangles) {
@@ -156,6 +173,35 @@ Body prepare_obj(const TriangleMesh& mesh, const WriteOptions& options, WriteRes
         append_number(buffer.text(), std::int64_t{vertex} + 1);
       }
       buffer.text() += '\n';
+      buffer.flush_if_full();
+    }
+  };
+}
+
+Body prepare_obj(const PointCloud& cloud, const WriteOptions& options, WriteResult& result) {
+  const bool as_float = options.coordinates == CoordinateType::float32;
+  result.coordinates = as_float ? CoordinateType::float32 : CoordinateType::float64;
+  const std::vector<const Attribute*> normals = find_normals(cloud.attributes);
+  std::vector<Attribute> lost; // names only
+  for (const Attribute& a : cloud.attributes)
+    if (std::find(normals.begin(), normals.end(), &a) == normals.end()) {
+      lost.emplace_back();
+      lost.back().name = a.name;
+      lost.back().type = a.type;
+    }
+  warn_lost_attributes(lost, "points", 3, "OBJ", result.warnings);
+  const auto colours = find_colours(cloud.attributes);
+  return [&cloud, comments = options.comments, colours, normals, as_float](std::ostream& out) {
+    TextBuffer buffer(out);
+    append_comments(buffer.text(), "# ", comments);
+    for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+      append_vertex(buffer.text(), cloud.points[i], colours, i, as_float);
+      if (!normals.empty()) {
+        buffer.text() += "vn ";
+        const Vec3 n{attribute_value(*normals[0], i), attribute_value(*normals[1], i), attribute_value(*normals[2], i)};
+        append_point(buffer.text(), n, ' ', true);
+        buffer.text() += '\n';
+      }
       buffer.flush_if_full();
     }
   };

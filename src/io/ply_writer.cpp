@@ -14,16 +14,6 @@
 namespace eigencrust::io {
 namespace {
 
-/// float32 where it neither moves a point by much nor makes different points equal.
-CoordinateType choose_coordinates(std::span<const Vec3> points, const TriangleMesh* mesh, const WriteOptions& options) {
-  if (options.coordinates != CoordinateType::automatic) return options.coordinates;
-  const double moved = rounding_error(points);
-  if (moved == 0) return CoordinateType::float32;
-  const double spacing = options.spacing > 0 ? options.spacing : mesh != nullptr ? median_edge(*mesh) : 0;
-  return moved <= allowed_rounding * spacing && distinct_as_float(points) ? CoordinateType::float32
-                                                                          : CoordinateType::float64;
-}
-
 /// A row of a list may be longer than the type of its length allows; then the type is widened.
 ScalarType count_type_of(const Attribute& list) {
   std::uint64_t longest = 0;
@@ -106,7 +96,8 @@ void append_header(BinaryBuffer& buffer, const std::string& header) {
 } // namespace
 
 Body prepare_ply(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result) {
-  result.coordinates = choose_coordinates(mesh.vertices, &mesh, options);
+  result.coordinates =
+      choose_coordinates(mesh.vertices, options.spacing > 0 ? options.spacing : median_edge(mesh), options);
   if (options.coordinates == CoordinateType::float32 && !distinct_as_float(mesh.vertices))
     throw Error(ErrorKind::guarantee, "PLY", "32-bit coordinates would make different vertices equal",
                 "write 64-bit coordinates");
@@ -131,7 +122,7 @@ Body prepare_ply(const TriangleMesh& mesh, const WriteOptions& options, WriteRes
 }
 
 Body prepare_ply(const PointCloud& cloud, const WriteOptions& options, WriteResult& result) {
-  result.coordinates = choose_coordinates(cloud.points, nullptr, options);
+  result.coordinates = choose_coordinates(cloud.points, options.spacing, options);
   if (options.coordinates == CoordinateType::float32 && !distinct_as_float(cloud.points))
     result.warnings.emplace_back("32-bit coordinates make different points equal");
   const auto properties = make_properties(cloud.attributes, {"x", "y", "z"}, result.warnings);

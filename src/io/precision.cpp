@@ -62,4 +62,12 @@ bool distinct_as_float(std::span<const Vec3> points, const Vec3& offset) {
   return true;
 }
 
+CoordinateType choose_coordinates(std::span<const Vec3> points, double spacing, const WriteOptions& options) {
+  if (options.coordinates != CoordinateType::automatic) return options.coordinates;
+  const double moved = rounding_error(points);
+  if (moved == 0) return CoordinateType::float32;
+  return moved <= allowed_rounding * spacing && distinct_as_float(points) ? CoordinateType::float32
+                                                                          : CoordinateType::float64;
+}
+
 } // namespace eigencrust::io

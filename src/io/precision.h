@@ -5,6 +5,7 @@
 
 #include <span>
 
+#include <eigencrust/io.h>
 #include <eigencrust/types.h>
 
 namespace eigencrust::io {
@@ -21,5 +22,9 @@ double rounding_error(std::span<const Vec3> points, const Vec3& offset = {});
 
 /// Do points that differ still differ as float32(p - offset)? (0 and -0 are equal.)
 bool distinct_as_float(std::span<const Vec3> points, const Vec3& offset = {});
+
+/// float32 where it neither moves a point by much nor makes different points equal, unless the options say which.
+/// \param spacing median distance of neighbours; 0: not known
+CoordinateType choose_coordinates(std::span<const Vec3> points, double spacing, const WriteOptions& options);
 
 } // namespace eigencrust::io

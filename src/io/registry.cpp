@@ -12,6 +12,7 @@
 #include "io/colmap.h"
 #include "io/formats.h"
 #include "io/sensor_columns.h"
+#include "io/sha256.h"
 #include "io/text.h"
 
 namespace eigencrust {
@@ -73,12 +74,12 @@ constexpr std::array<Format, 16> formats = {{
     {"pts", read_rows<io::read_pts>},
     {"e57", read_noted<io::read_e57>},
     {"ptx", read_noted<io::read_ptx>},
-    {"pcd", io::read_pcd},
-    {"las", read_noted<io::read_las>},
+    {"pcd", io::read_pcd, nullptr, nullptr, io::prepare_pcd},
+    {"las", read_noted<io::read_las>, nullptr, nullptr, io::prepare_las},
     {"laz", read_noted<io::read_las>}, // which says why it cannot
     {"npz", read_noted<io::read_npz>},
     {"npy", read_npy_points},
-    {"obj", read_vertices<io::read_obj>, io::read_obj, io::prepare_obj},
+    {"obj", read_vertices<io::read_obj>, io::read_obj, io::prepare_obj, io::prepare_obj},
     {"off", read_vertices<io::read_off>, io::read_off, io::prepare_off},
     {"stl", read_vertices<io::read_stl>, io::read_stl, io::prepare_stl},
 }};
@@ -92,6 +93,11 @@ const Format* find_format(std::string_view extension) {
 const Format* format_of(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
   return extension.empty() ? nullptr : find_format(std::string_view(extension).substr(1));
+}
+
+/// For writing: that of the name, unless another is asked for.
+const Format* format_for_writing(const std::filesystem::path& path, const std::string& format) {
+  return format.empty() ? format_of(path) : find_format(format);
 }
 
 /// Recognizes text formats by their first line that is no comment.
@@ -161,11 +167,17 @@ const Format& format_for_reading(const FileContent& file, bool mesh_wanted) {
   return *format;
 }
 
-/// From the files that COLMAP writes beside a fused cloud.
-void add_colmap_sensors(const std::filesystem::path& path, PointCloud& cloud, Notes& notes) {
+/// The visibility that COLMAP writes beside a fused cloud; empty where there is none.
+std::filesystem::path visibility_of(const std::filesystem::path& path) {
   const std::filesystem::path visibility = path.string() + ".vis";
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(visibility, ignored)) return;
+  return std::filesystem::is_regular_file(visibility, ignored) ? visibility : std::filesystem::path();
+}
+
+/// From the files that COLMAP writes beside a fused cloud.
+void add_colmap_sensors(const std::filesystem::path& path, PointCloud& cloud, Notes& notes) {
+  const std::filesystem::path visibility = visibility_of(path);
+  if (visibility.empty()) return;
   const auto images = io::find_colmap_images(path);
   if (!images) {
     notes.push_back(visibility.filename().string() +
@@ -184,7 +196,7 @@ void add_colmap_sensors(const std::filesystem::path& path, PointCloud& cloud, No
 
 [[noreturn]] void fail_extension(const std::filesystem::path& path, bool mesh) {
   throw Error(ErrorKind::input, path.string(), "there is no writer for this file name's extension",
-              mesh ? "use .ply, .obj, .off or .stl" : "use .ply, .xyz, .txt, .asc or .csv");
+              mesh ? "use .ply, .obj, .off or .stl" : "use .ply, .pcd, .las, .xyz, .txt, .asc, .csv or .obj");
 }
 
 /// Are the sensors among the attributes, so that they are written?
@@ -228,11 +240,22 @@ PointCloud io::read_cloud(const FileContent& file, const ReadOptions& options, N
 
 TriangleMesh io::read_mesh(const FileContent& file) { return format_for_reading(file, true).read_mesh(file); }
 
-PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options, Notes* notes) {
+std::vector<std::filesystem::path> companion_files(const std::filesystem::path& path) {
+  const std::filesystem::path visibility = visibility_of(path);
+  if (visibility.empty()) return {};
+  std::vector<std::filesystem::path> files{visibility};
+  if (const auto images = io::find_colmap_images(path)) files.push_back(*images);
+  return files;
+}
+
+PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options, Notes* notes,
+                            std::string* sha256) {
   try {
     Notes unused;
     Notes& said = notes == nullptr ? unused : *notes;
-    PointCloud cloud = io::read_cloud(FileContent(path), options, said);
+    const FileContent file(path);
+    if (sha256 != nullptr) *sha256 = io::sha256_of(file);
+    PointCloud cloud = io::read_cloud(file, options, said);
     if (options.sensors && cloud.sensors.empty()) add_colmap_sensors(path, cloud, said);
     return cloud;
   } catch (const std::bad_alloc&) {
@@ -252,36 +275,53 @@ TriangleMesh read_mesh(const std::filesystem::path& path) {
   }
 }
 
-WriteResult write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options) {
-  const Format* format = format_of(path);
+WriteResult OutputFiles::add_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
+                                  const WriteOptions& options) {
+  const Format* format = format_for_writing(path, options.format);
   if (format == nullptr || format->write_mesh == nullptr) fail_extension(path, true);
   check_mesh(mesh);
   WriteResult result;
   const Body body = format->write_mesh(mesh, options, result);
-  write_file_atomically(path, body);
+  add(path, body);
   return result;
 }
 
-WriteResult write_point_cloud(const std::filesystem::path& path, const PointCloud& cloud, const WriteOptions& options) {
-  const Format* format = format_of(path);
+WriteResult OutputFiles::add_point_cloud(const std::filesystem::path& path, const PointCloud& cloud,
+                                         const WriteOptions& options) {
+  const Format* format = format_for_writing(path, options.format);
   if (format == nullptr || format->write_cloud == nullptr) fail_extension(path, false);
   io::check_attributes(cloud.attributes, cloud.points.size(), "point");
   WriteResult result;
   const Body body = format->write_cloud(cloud, options, result);
   if (!cloud.scan_index.empty()) result.warnings.emplace_back("the scan numbers of the points are not written");
-  if (!cloud.sensors.empty() && !columns_tell_sensors(cloud))
+  const bool has_viewpoint = format->extension == "pcd" && io::viewpoint_of(cloud);
+  if (!cloud.sensors.empty() && !has_viewpoint && !columns_tell_sensors(cloud))
     result.warnings.emplace_back("the sensors of the points are not written");
-  write_file_atomically(path, body);
+  add(path, body);
   return result;
 }
 
-bool can_write_mesh(const std::filesystem::path& path) {
-  const Format* format = format_of(path);
+WriteResult write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options) {
+  OutputFiles files;
+  WriteResult result = files.add_mesh(path, mesh, options);
+  files.put_in_place();
+  return result;
+}
+
+WriteResult write_point_cloud(const std::filesystem::path& path, const PointCloud& cloud, const WriteOptions& options) {
+  OutputFiles files;
+  WriteResult result = files.add_point_cloud(path, cloud, options);
+  files.put_in_place();
+  return result;
+}
+
+bool can_write_mesh(const std::filesystem::path& path, const std::string& name) {
+  const Format* format = format_for_writing(path, name);
   return format != nullptr && format->write_mesh != nullptr;
 }
 
-bool can_write_point_cloud(const std::filesystem::path& path) {
-  const Format* format = format_of(path);
+bool can_write_point_cloud(const std::filesystem::path& path, const std::string& name) {
+  const Format* format = format_for_writing(path, name);
   return format != nullptr && format->write_cloud != nullptr;
 }
 

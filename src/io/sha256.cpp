@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <openssl/evp.h>
+// The functions that OpenSSL 3 calls deprecated take no memory; the new ones crash where there is none.
+#define OPENSSL_SUPPRESS_DEPRECATED
+#include <openssl/sha.h>
 
 #include <array>
-#include <memory>
 
-#include <eigencrust/error.h>
 #include <eigencrust/io.h>
 
-#include "io/file_content.h"
+#include "io/sha256.h"
 
 namespace eigencrust {
 
-std::string sha256_of_file(const std::filesystem::path& path) {
-  const io::FileContent file(path);
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned size = 0;
+std::string io::sha256_of(const FileContent& file) {
+  std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
+  SHA256_CTX state;
   const std::string_view bytes = file.bytes();
-  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1)
-    throw Error(ErrorKind::input, path.string(), "the SHA-256 of the file cannot be computed", "check OpenSSL");
+  SHA256_Init(&state);
+  SHA256_Update(&state, bytes.data(), bytes.size());
+  SHA256_Final(digest.data(), &state);
   static constexpr char digits[] = "0123456789abcdef";
   std::string text;
-  for (unsigned i = 0; i < size; ++i) {
-    text += digits[digest[i] >> 4];
-    text += digits[digest[i] & 15];
+  for (const unsigned char byte : digest) {
+    text += digits[byte >> 4];
+    text += digits[byte & 15];
   }
   return text;
 }
+
+std::string sha256_of_file(const std::filesystem::path& path) { return io::sha256_of(io::FileContent(path)); }
 
 } // namespace eigencrust

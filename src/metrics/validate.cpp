@@ -7,6 +7,7 @@
 
 #include "geometry/mesh_topology.h"
 #include "geometry/self_intersections.h"
+#include "geometry/signed_volume.h"
 #include "parallel/threads.h"
 
 namespace eigencrust {
@@ -192,7 +193,8 @@ void summarize_topology(std::span<const Triangle> triangles, std::size_t vertice
 }
 
 struct Measures {
-  double volume = 0, area = 0;
+  SignedVolume volume;
+  double area = 0;
   Measures operator+(const Measures& o) const { return {volume + o.volume, area + o.area}; }
 };
 
@@ -205,7 +207,7 @@ Measures measure(std::span<const Vec3> vertices, std::span<const Triangle> trian
     for (std::size_t t = begin; t < end; ++t) {
       const Vec3 a = vertices[triangles[t][0]] - centre, b = vertices[triangles[t][1]] - centre,
                  c = vertices[triangles[t][2]] - centre;
-      sum.volume += dot(a, cross(b - a, c - a)) / 6;
+      sum.volume.add(a, b, c);
       sum.area += norm(cross(b - a, c - a)) / 2;
     }
     return sum;
@@ -242,7 +244,7 @@ MeshSummary validate(const TriangleMesh& mesh, const ValidateOptions& options) {
     for (const std::uint32_t v : t) summary.bounds.add(mesh.vertices[v]);
   if (!summary.bounds.empty()) {
     const Measures m = measure(mesh.vertices, merged.proper, summary.bounds.centre(), threads);
-    summary.volume = m.volume;
+    summary.volume = m.volume.known();
     summary.area = m.area;
   }
   const auto degenerate = find_degenerate_triangles(mesh.vertices, merged.all, threads);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/distinct_numbers.h"
+
 namespace eigencrust {
 namespace {
 
@@ -251,36 +253,21 @@ void list_members(Aggregation& a) {
   });
 }
 
-struct RowBlock {
-  std::vector<std::uint32_t> column;
-  std::vector<float> value;
-};
-
-/// Rows of one block of aggregates; lengths go to row_length.
-void galerkin_block(const BorderedMatrix& m, const Aggregation& a, std::size_t first, std::size_t last, RowBlock& rows,
-                    std::vector<std::uint64_t>& row_length, std::vector<double>& diagonal) {
-  RowSums sums(a.count);
-  for (std::size_t g = first; g < last; ++g) {
-    double self = 0;
-    for (const std::uint32_t i : a.members[g]) {
-      self += m.diagonal[i];
-      for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1]; ++e) {
-        const std::uint32_t column = a.aggregate[m.column[e]];
-        const double v = EntriesOfAggregates::signed_entry(m, a, i, e);
-        if (column == g)
-          self += v;
-        else
-          sums.add(column, v);
-      }
+/// Adds what the members of an aggregate have to the sums by column. \return the entry on the diagonal
+double add_row(const BorderedMatrix& m, const Aggregation& a, std::size_t g, RowSums& sums) {
+  double self = 0;
+  for (const std::uint32_t i : a.members[g]) {
+    self += m.diagonal[i];
+    for (std::uint64_t e = m.row_begin[i]; e < m.row_begin[i + 1]; ++e) {
+      const std::uint32_t column = a.aggregate[m.column[e]];
+      const double v = EntriesOfAggregates::signed_entry(m, a, i, e);
+      if (column == g)
+        self += v;
+      else
+        sums.add(column, v);
     }
-    diagonal[g] = self;
-    const std::size_t before = rows.column.size();
-    sums.take([&](std::uint32_t column, float value) {
-      rows.column.push_back(column);
-      rows.value.push_back(value);
-    });
-    row_length[g + 1] = rows.column.size() - before;
   }
+  return self;
 }
 
 } // namespace
@@ -295,21 +282,14 @@ Aggregation match_pairs(const BorderedMatrix& m, const Threads& threads) {
 BorderedMatrix galerkin(const BorderedMatrix& matrix, const Aggregation& a, const Threads& threads) {
   BorderedMatrix coarse;
   coarse.diagonal.resize(a.count);
-  coarse.row_begin.assign(a.count + 1, 0);
-  const std::size_t block = std::max<std::size_t>(4096, a.count / 32 + 1); // each block has a table of all columns
-  std::vector<RowBlock> blocks((a.count + block - 1) / block);
-  for_blocks(threads, a.count, block, [&](std::size_t first, std::size_t last, std::size_t b) {
-    galerkin_block(matrix, a, first, last, blocks[b], coarse.row_begin, coarse.diagonal);
+  using Entry = std::pair<std::uint32_t, float>;
+  auto rows = build_rows<Entry>(threads, a.count, block_with_table(a.count), [&] {
+    return [&, sums = RowSums(a.count)](std::size_t g, std::vector<Entry>& row) mutable {
+      coarse.diagonal[g] = add_row(matrix, a, g, sums);
+      sums.take([&](std::uint32_t column, float value) { row.emplace_back(column, value); });
+    };
   });
-  for (std::uint32_t g = 0; g < a.count; ++g) coarse.row_begin[g + 1] += coarse.row_begin[g];
-  coarse.column.resize(coarse.row_begin[a.count]);
-  coarse.value.resize(coarse.row_begin[a.count]);
-  threads.run(blocks.size(), [&](std::size_t b) {
-    const auto at = static_cast<std::ptrdiff_t>(coarse.row_begin[b * block]);
-    std::copy(blocks[b].column.begin(), blocks[b].column.end(), coarse.column.begin() + at);
-    std::copy(blocks[b].value.begin(), blocks[b].value.end(), coarse.value.begin() + at);
-    blocks[b] = {};
-  });
+  split_rows(std::move(rows), coarse.row_begin, coarse.column, coarse.value, threads);
   coarse.corner = matrix.corner;
   for (const std::vector<float>& border : matrix.border) {
     std::vector<float> sums(a.count);

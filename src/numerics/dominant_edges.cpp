@@ -81,11 +81,7 @@ SignedGraph merged(const SignedGraph& graph, const std::vector<std::uint32_t>& n
   const auto members = build_rows<std::uint32_t>(nodes, [&](auto&& visit) {
     for (std::uint32_t i = 0; i < node.size(); ++i) visit(node[i], i);
   });
-  struct Entry {
-    std::uint32_t column;
-    float weight;
-    bool operator<(const Entry& other) const { return column < other.column; }
-  };
+  using Entry = std::pair<std::uint32_t, float>;
   auto rows = build_rows<Entry>(threads, nodes, block_with_table(nodes), [&] {
     return [&, sums = WeightTable(nodes)](std::size_t own, std::vector<Entry>& row) mutable {
       sums.clear();
@@ -94,18 +90,12 @@ SignedGraph merged(const SignedGraph& graph, const std::vector<std::uint32_t>& n
           if (const std::uint32_t j = graph.column[e]; node[j] != own)
             sums.add(node[j], sign[i] * sign[j] * static_cast<double>(graph.weight[e]));
       const auto begin = static_cast<std::ptrdiff_t>(row.size());
-      sums.for_each([&](std::uint32_t other, float w) { row.push_back({other, w}); });
+      sums.for_each([&](std::uint32_t other, float w) { row.emplace_back(other, w); });
       std::sort(row.begin() + begin, row.end());
     };
   });
   SignedGraph result;
-  result.row_begin = std::move(rows.begin);
-  result.column.resize(rows.item.size());
-  result.weight.resize(rows.item.size());
-  for_each_index(threads, rows.item.size(), [&](std::size_t e) {
-    result.column[e] = rows.item[e].column;
-    result.weight[e] = rows.item[e].weight;
-  });
+  split_rows(std::move(rows), result.row_begin, result.column, result.weight, threads);
   result.supernodes.assign(graph.supernodes.size(), {std::vector<float>(nodes, 0.0f)});
   for (std::size_t s = 0; s < graph.supernodes.size(); ++s)
     for (std::uint32_t i = 0; i < node.size(); ++i)

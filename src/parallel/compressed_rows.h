@@ -6,12 +6,16 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "parallel/threads.h"
 
 namespace eigencrust {
+
+/// Block length where blocks have to be joined afterwards: few of them, that their seams be short.
+constexpr std::size_t long_block = 65536;
 
 template <class T>
 struct CompressedRows {
@@ -60,6 +64,25 @@ CompressedRows<T> build_rows(const Threads& threads, std::size_t rows, std::size
     parts[b] = {};
   });
   return result;
+}
+
+/// Sorts each row.
+template <class T, class Less>
+void sort_rows(CompressedRows<T>& rows, const Threads& threads, Less&& less) {
+  for_each_index(threads, rows.begin.size() - 1, [&](std::size_t row) {
+    const auto at = [&](std::uint64_t k) { return rows.item.begin() + static_cast<std::ptrdiff_t>(k); };
+    std::sort(at(rows.begin[row]), at(rows.begin[row + 1]), less);
+  });
+}
+
+/// The two arrays of rows of pairs, as graphs and matrices have their columns and weights.
+template <class A, class B>
+void split_rows(CompressedRows<std::pair<A, B>> rows, std::vector<std::uint64_t>& begin, std::vector<A>& first,
+                std::vector<B>& second, const Threads& threads) {
+  begin = std::move(rows.begin);
+  first.resize(rows.item.size());
+  second.resize(rows.item.size());
+  for_each_index(threads, rows.item.size(), [&](std::size_t i) { std::tie(first[i], second[i]) = rows.item[i]; });
 }
 
 } // namespace eigencrust

@@ -14,9 +14,8 @@
 namespace eigencrust {
 namespace {
 
-// Steps of smoothing per grid spacing of noise in units of the surface's edges, and at most.
+// Steps of smoothing per grid spacing of noise in units of the surface's edges, of which two count at most.
 constexpr double steps_per_ratio = 32;
-constexpr double max_steps = 64;
 
 Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
   const double length = norm(v);
@@ -55,7 +54,7 @@ class VertexNormals {
     for (const auto& wing : fans_[v]) edges += distance(at(v), at(wing.next));
     const double mean = edges / static_cast<double>(fans_[v].size());
     const double ratio = static_cast<double>(grid_spacing[surface_.sample_of[v].value]) / mean;
-    return static_cast<int>(std::lround(std::min(max_steps, steps_per_ratio * ratio)));
+    return static_cast<int>(std::lround(steps_per_ratio * std::min(2.0, ratio)));
   }
 
   [[nodiscard]] Vec3 sum_around(std::size_t v, const std::vector<Vec3>& normals) const {

@@ -7,6 +7,7 @@
 
 #include "parallel/threads.h"
 #include "poles/global_sign.h"
+#include "poles/pole_weights.h"
 
 namespace eigencrust {
 namespace {
@@ -52,7 +53,7 @@ PoleLabels label_poles(const Tetrahedralization& t, const Poles& poles, const Po
   // A node that holds a pole named after the graph was made is what it is named, whatever its neighbours say.
   for (PoleIndex p{0}; p.value < graph.node.size(); ++p.value)
     if (graph.node[p].valid() && known[poles.tetrahedron[p]] != Label::unlabelled) agreed[graph.node[p].value] = 1;
-  result.trust = IndexedArray<TetrahedronIndex, std::uint8_t>(t.tetrahedra.size(), 255);
+  result.trust = IndexedArray<TetrahedronIndex, std::uint8_t>(t.tetrahedra.size(), full_trust);
   for (PoleIndex p{0}; p.value < graph.node.size(); ++p.value) {
     const std::uint32_t node = graph.node[p].value;
     if (!graph.node[p].valid()) continue;
@@ -62,7 +63,7 @@ PoleLabels label_poles(const Tetrahedralization& t, const Poles& poles, const Po
       continue;
     }
     result.trust[poles.tetrahedron[p]] =
-        static_cast<std::uint8_t>(std::lround(255 * std::clamp(agreed[node], 0.0, 1.0)));
+        static_cast<std::uint8_t>(std::lround(full_trust * std::clamp(agreed[node], 0.0, 1.0)));
     result.contradicted += agreed[node] < 0;
     const TetrahedronIndex tetrahedron = poles.tetrahedron[p];
     if (known[tetrahedron] != Label::unlabelled) continue; // named after the graph was made, see Session

@@ -43,10 +43,9 @@ Lists samples_of_poles(const Poles& poles) {
 }
 
 /// How much an isolated sample's pole pair counts: only as far as its Voronoi cell is long compared with its
-/// neighbourhood, which an outlier's never is. At the known outside more is asked (docs/decisions/0013).
-double trust_in_isolated(double shorter_pole, double neighbourhood, bool at_outside) {
-  const double ratio = shorter_pole / neighbourhood;
-  return at_outside ? std::clamp((ratio - 1.5) / 2, 0.0, 1.0) : std::clamp(ratio - 0.7, 0.0, 1.0);
+/// neighbourhood, which an outlier's never is (docs/decisions/0013).
+double trust_in_isolated(double shorter_pole, double neighbourhood) {
+  return std::clamp(shorter_pole / neighbourhood - 1, 0.0, 1.0);
 }
 
 /// cos φ of two spheres: -1 where one touches the other from within, 1 from outside; more where they do not meet.
@@ -59,7 +58,7 @@ double cosine_of_spheres(const Sphere& a, const Sphere& b) {
 double same_weight(const Sphere& a, const Sphere& b) {
   const double cosine = cosine_of_spheres(a, b);
   if (!(cosine <= 1)) return 0;
-  return std::exp(4 - 4 * std::max(cosine, -1.0));
+  return std::exp(steepness * (1 - std::max(cosine, -1.0)));
 }
 
 /// Clusters of poles (docs/decisions/0025): balls that nearly coincide are on the same side, so each pole joins the
@@ -70,33 +69,30 @@ class Contraction {
               std::span<const float> isolated, const Threads& threads)
       : parent_(poles.tetrahedron.size()) {
     std::iota(parent_.begin(), parent_.end(), 0u);
-    const std::size_t samples = poles.of_sample.size();
-    std::vector<std::vector<std::array<std::uint32_t, 2>>> blocks((samples + default_block - 1) / default_block);
     const auto is_node = [&](PoleIndex p) { return p.valid() && node_of[p.value] < inside_node; };
-    for_blocks(threads, samples, default_block, [&](std::size_t first, std::size_t last, std::size_t b) {
-      const auto offer = [&](PoleIndex p, PoleIndex q) {
-        if (p == q || !is_node(p) || !is_node(q)) return;
-        if (!(cosine_of_spheres(poles.sphere[p], poles.sphere[q]) < nearly_one)) return;
-        blocks[b].push_back({p.value, q.value});
-      };
-      for (std::size_t s = first; s < last; ++s)
-        for (const std::uint32_t n : neighbours[s]) {
-          if (n < s || (!isolated.empty() && (isolated[s] > 0 || isolated[n] > 0))) continue;
-          const PolePair &here = poles.of_sample.raw()[s], &there = poles.of_sample.raw()[n];
-          for (const PoleIndex p : {here.first, here.second})
-            for (const PoleIndex q : {there.first, there.second}) offer(p, q);
-        }
-    });
+    const auto coincide = [&](PoleIndex p, PoleIndex q) {
+      return p != q && is_node(p) && is_node(q) && cosine_of_spheres(poles.sphere[p], poles.sphere[q]) < nearly_one;
+    };
+    using Pair = std::array<std::uint32_t, 2>;
+    const auto write = [&](std::size_t s, std::vector<Pair>& pairs) {
+      for (const std::uint32_t n : neighbours[s]) {
+        if (n < s || (!isolated.empty() && (isolated[s] > 0 || isolated[n] > 0))) continue;
+        const PolePair &here = poles.of_sample.raw()[s], &there = poles.of_sample.raw()[n];
+        for (const PoleIndex p : {here.first, here.second})
+          for (const PoleIndex q : {there.first, there.second})
+            if (coincide(p, q)) pairs.push_back({p.value, q.value});
+      }
+    };
+    const auto pairs = build_rows<Pair>(threads, poles.of_sample.size(), default_block, [&] { return write; });
     // Upward only: a chain of balls through the noise would otherwise join one side with the other.
     const auto is_larger = [&](std::uint32_t p, std::uint32_t q) {
       return std::pair(poles.sphere.raw()[p].radius, q) > std::pair(poles.sphere.raw()[q].radius, p);
     };
     std::vector<std::uint32_t> largest(parent_);
-    for (const auto& block : blocks)
-      for (auto [p, q] : block) {
-        if (is_larger(p, q)) std::swap(p, q);
-        if (is_larger(q, largest[p])) largest[p] = q;
-      }
+    for (auto [p, q] : pairs.item) {
+      if (is_larger(p, q)) std::swap(p, q);
+      if (is_larger(q, largest[p])) largest[p] = q;
+    }
     for (std::uint32_t p = 0; p < largest.size(); ++p) unite(p, largest[p]);
   }
 
@@ -119,11 +115,7 @@ class Contraction {
   std::vector<std::uint32_t> parent_;
 };
 
-/// Rows one after the other.
-struct Rows {
-  std::vector<std::uint32_t> column;
-  std::vector<float> weight;
-};
+using Entry = std::pair<std::uint32_t, float>; ///< column and weight
 
 /// Assembles rows one by one from the stars: no pair list, no global sort, and no edge within a cluster.
 class RowAssembler {
@@ -139,18 +131,15 @@ class RowAssembler {
         candidates_(node_of.size()),
         sums_(nodes) {}
 
-  /// Appends the row of a node, the poles `members`; sums to supernodes are returned through `super`.
-  void append(std::uint32_t node, std::span<const std::uint32_t> members, Rows& rows, std::array<double, 2>& super) {
+  /// Appends the row of a node, the poles `members`. \return sums to the supernodes
+  std::array<double, 2> append(std::uint32_t node, std::span<const std::uint32_t> members, std::vector<Entry>& row) {
     sums_.clear();
-    super = {0, 0};
+    std::array<double, 2> super{};
     for (const std::uint32_t p : members) add_edges_of(node, p, super);
-    row_.clear();
-    sums_.for_each([&](std::uint32_t other, float w) { row_.emplace_back(other, w); });
-    std::sort(row_.begin(), row_.end());
-    for (const auto& [other, w] : row_) {
-      rows.column.push_back(other);
-      rows.weight.push_back(w);
-    }
+    const auto begin = static_cast<std::ptrdiff_t>(row.size());
+    sums_.for_each([&](std::uint32_t other, float w) { row.emplace_back(other, w); });
+    std::sort(row.begin() + begin, row.end());
+    return super;
   }
 
  private:
@@ -185,8 +174,7 @@ class RowAssembler {
     const double w = opposite_weight(s, a, b);
     if (isolated_.empty() || !(isolated_[sample] > 0)) return w;
     const double shorter = std::min(distance(a.centre, s), distance(b.centre, s));
-    const bool at_outside = node_of_[p] == outside_node || node_of_[q] == outside_node;
-    return w * trust_in_isolated(shorter, static_cast<double>(isolated_[sample]), at_outside);
+    return w * trust_in_isolated(shorter, static_cast<double>(isolated_[sample]));
   }
 
   void collect(std::uint32_t own, std::uint32_t p) {
@@ -220,7 +208,6 @@ class RowAssembler {
   DistinctNumbers candidates_;
   WeightTable sums_;
   std::vector<Opposite> opposite_;
-  std::vector<std::pair<std::uint32_t, float>> row_;
 };
 
 /// One large negative edge between the supernodes: as much as all their other edges together (as in §3.4).
@@ -251,16 +238,10 @@ std::uint32_t number_nodes(const Poles& poles, const Lists& neighbours, bool con
 
 /// The poles of each node, increasing.
 Lists members_of(const std::vector<std::uint32_t>& node_of, std::uint32_t nodes) {
-  Lists lists;
-  lists.begin.assign(nodes + 1, 0);
-  for (const std::uint32_t node : node_of)
-    if (node < inside_node) ++lists.begin[node + 1];
-  for (std::size_t i = 0; i < nodes; ++i) lists.begin[i + 1] += lists.begin[i];
-  lists.item.resize(lists.begin.back());
-  std::vector<std::uint64_t> cursor(lists.begin.begin(), lists.begin.end() - 1);
-  for (std::uint32_t p = 0; p < node_of.size(); ++p)
-    if (node_of[p] < inside_node) lists.item[cursor[node_of[p]]++] = p;
-  return lists;
+  return build_rows<std::uint32_t>(nodes, [&](auto&& visit) {
+    for (std::uint32_t p = 0; p < node_of.size(); ++p)
+      if (node_of[p] < inside_node) visit(node_of[p], p);
+  });
 }
 
 } // namespace
@@ -287,30 +268,16 @@ PoleGraph pole_graph(const Tetrahedralization& t, const VertexStars& stars, cons
 
   PoleGraph result;
   SignedGraph& graph = result.graph;
-  graph.row_begin.assign(nodes + 1, 0);
   graph.supernodes.assign(supernodes, {std::vector<float>(nodes, 0.0f)});
   graph.supernode_weight.assign(supernodes, std::vector<double>(supernodes, 0.0));
-  const std::size_t block = block_with_table(nodes);
-  std::vector<Rows> blocks((nodes + block - 1) / block);
-  for_blocks(threads, nodes, block, [&](std::size_t first, std::size_t last, std::size_t b) {
-    RowAssembler assembler(t, poles, neighbours, samples_of, node_of, nodes, isolated);
-    std::array<double, 2> super{};
-    for (std::size_t i = first; i < last; ++i) {
-      const std::size_t before = blocks[b].column.size();
-      assembler.append(static_cast<std::uint32_t>(i), members[i], blocks[b], super);
-      graph.row_begin[i + 1] = blocks[b].column.size() - before;
+  auto rows = build_rows<Entry>(threads, nodes, block_with_table(nodes), [&] {
+    return [&, assembler = RowAssembler(t, poles, neighbours, samples_of, node_of, nodes, isolated)](
+               std::size_t i, std::vector<Entry>& row) mutable {
+      const auto super = assembler.append(static_cast<std::uint32_t>(i), members[i], row);
       for (std::size_t k = 0; k < supernodes; ++k) graph.supernodes[k].weight[i] = static_cast<float>(super[k]);
-    }
+    };
   });
-  for (std::uint32_t i = 0; i < nodes; ++i) graph.row_begin[i + 1] += graph.row_begin[i];
-  graph.column.resize(graph.row_begin[nodes]);
-  graph.weight.resize(graph.row_begin[nodes]);
-  threads.run(blocks.size(), [&](std::size_t b) {
-    const auto at = static_cast<std::ptrdiff_t>(graph.row_begin[b * block]);
-    std::copy(blocks[b].column.begin(), blocks[b].column.end(), graph.column.begin() + at);
-    std::copy(blocks[b].weight.begin(), blocks[b].weight.end(), graph.weight.begin() + at);
-    blocks[b] = {};
-  });
+  split_rows(std::move(rows), graph.row_begin, graph.column, graph.weight, threads);
   if (supernodes == 2) repel_supernodes(graph);
   result.node = IndexedArray<PoleIndex, NodeIndex>(poles.tetrahedron.size());
   for (std::uint32_t p = 0; p < node_of.size(); ++p)

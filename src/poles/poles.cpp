@@ -47,63 +47,51 @@ Vec3 way_out(const Tetrahedralization& t, const Vec3& s, std::span<const Tetrahe
   return sum;
 }
 
-/// The farthest circumcentre, and the farthest at more than 90 degrees from it. Stars are in increasing
-/// order, so the strict comparison leaves ties to the smaller index.
-TetrahedronPair pole_tetrahedra(const Tetrahedralization& t, const Vec3& s, std::span<const TetrahedronIndex> star,
-                                const Centres& centres, Weights weights) {
+/// The farthest of some centres from s, and the farthest at more than 90 degrees from a direction that it tells. Ties
+/// go to the smaller index.
+template <class ForEach, class DirectionOf>
+TetrahedronPair farthest_pair(const Vec3& s, const Centres& centres, const ForEach& for_each,
+                              const DirectionOf& direction_of) {
   TetrahedronPair pair;
-  double farthest = -1;
-  for (const TetrahedronIndex i : star) {
-    const double d = squared_norm(centres[i] - s);
-    if (d > farthest) {
+  const auto find = [&](TetrahedronIndex& best, const auto& is_allowed) {
+    double farthest = -1;
+    for_each([&](TetrahedronIndex i) {
+      const Vec3 offset = centres[i] - s;
+      const double d = squared_norm(offset);
+      if (!(d > farthest || (d == farthest && i < best)) || !is_allowed(offset)) return;
       farthest = d;
-      pair.first = i;
-    }
-  }
+      best = i;
+    });
+  };
+  find(pair.first, [](const Vec3&) { return true; });
   if (!pair.first.valid()) return pair; // no centre is finite
-  const bool leaves = weights == Weights::evidence && t.touches_cube(pair.first);
-  const Vec3 direction = leaves ? way_out(t, s, star, centres) : centres[pair.first] - s;
-  farthest = -1;
-  for (const TetrahedronIndex i : star) {
-    const Vec3 offset = centres[i] - s;
-    const double d = squared_norm(offset);
-    if (d > farthest && dot(offset, direction) < 0) {
-      farthest = d;
-      pair.second = i;
-    }
-  }
+  const Vec3 direction = direction_of(pair.first);
+  find(pair.second, [&](const Vec3& offset) { return dot(offset, direction) < 0; });
   return pair;
 }
 
-/// The farthest pole among those of the samples `near`, and the farthest at more than 90 degrees from it.
+/// Among the circumcentres around the sample.
+TetrahedronPair pole_tetrahedra(const Tetrahedralization& t, const Vec3& s, std::span<const TetrahedronIndex> star,
+                                const Centres& centres, Weights weights) {
+  return farthest_pair(
+      s, centres, [&](auto&& visit) { std::for_each(star.begin(), star.end(), visit); },
+      [&](TetrahedronIndex first) {
+        const bool leaves = weights == Weights::evidence && t.touches_cube(first);
+        return leaves ? way_out(t, s, star, centres) : centres[first] - s;
+      });
+}
+
+/// Among the poles of the samples `near`.
 TetrahedronPair widest_pair(const Vec3& s, std::span<const std::uint32_t> near, std::span<const TetrahedronPair> own,
                             const Centres& centres) {
-  TetrahedronPair pair;
-  double farthest = -1;
-  const auto for_each_pole = [&](auto&& visit) {
-    for (const std::uint32_t j : near)
-      for (const TetrahedronIndex c : {own[j].first, own[j].second})
-        if (c.valid()) visit(c, centres[c] - s);
-  };
-  const auto farther = [&](double d, TetrahedronIndex c, TetrahedronIndex best) {
-    return d > farthest || (d == farthest && c < best);
-  };
-  for_each_pole([&](TetrahedronIndex c, const Vec3& offset) {
-    const double d = squared_norm(offset);
-    if (!farther(d, c, pair.first)) return;
-    farthest = d;
-    pair.first = c;
-  });
-  if (!pair.first.valid()) return pair;
-  const Vec3 direction = centres[pair.first] - s;
-  farthest = -1;
-  for_each_pole([&](TetrahedronIndex c, const Vec3& offset) {
-    const double d = squared_norm(offset);
-    if (!(dot(offset, direction) < 0) || !farther(d, c, pair.second)) return;
-    farthest = d;
-    pair.second = c;
-  });
-  return pair;
+  return farthest_pair(
+      s, centres,
+      [&](auto&& visit) {
+        for (const std::uint32_t j : near)
+          for (const TetrahedronIndex i : {own[j].first, own[j].second})
+            if (i.valid()) visit(i);
+      },
+      [&](TetrahedronIndex first) { return centres[first] - s; });
 }
 
 /// Replaces the pairs of samples whose reach exceeds the distance to their neighbours.
@@ -118,7 +106,7 @@ void widen_pairs(const Tetrahedralization& t, std::span<const float> reach, cons
         const std::vector<std::uint32_t> near = tree.within(s, static_cast<double>(reach[i]));
         if (near.size() > 1) pairs[i] = widest_pair(s, near, own, centres);
       },
-      512);
+      costly_block);
 }
 
 } // namespace

@@ -57,6 +57,23 @@ Image beside(const std::vector<Image>& images) {
   return result;
 }
 
+Image stacked(const std::vector<Image>& images) {
+  Image result;
+  std::uint64_t height = 0;
+  for (const Image& image : images) {
+    if (!consistent(image) || image.width != images[0].width)
+      throw Error(ErrorKind::usage, "stacked", "the pictures are not of one width", "render them with equal widths");
+    height += image.height;
+  }
+  if (height > std::numeric_limits<std::int32_t>::max())
+    throw Error(ErrorKind::usage, "stacked", "the pictures are too high together", "take fewer or smaller ones");
+  if (images.empty()) return result;
+  result.width = images[0].width;
+  result.height = static_cast<std::uint32_t>(height);
+  for (const Image& image : images) result.rgb.insert(result.rgb.end(), image.rgb.begin(), image.rgb.end());
+  return result;
+}
+
 void write_png(const std::filesystem::path& path, const Image& image) {
   if (!consistent(image))
     throw Error(ErrorKind::input, path.string(), "the picture is empty or its rows do not fit its size",

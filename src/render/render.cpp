@@ -2,7 +2,9 @@
 #include <eigencrust/render.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -12,6 +14,7 @@
 #include "geometry/mesh_topology.h"
 #include "render/camera.h"
 #include "render/canvas.h"
+#include "render/framing.h"
 
 namespace eigencrust {
 namespace {
@@ -174,8 +177,9 @@ std::vector<ScreenDisc> screen_discs(const TriangleMesh& mesh, std::span<const s
   return discs;
 }
 
-/// Makes what is seen, which is not nothing, fit the picture.
-void frame(View& view, std::span<const Vec3> seen, const RenderOptions& o) {
+/// Makes the middle of what is seen, which is not nothing, that of the picture.
+/// \return the scale at which it just fits
+double frame(View& view, std::span<const Vec3> seen) {
   view.centre = seen[0]; // a first origin close by: no digits are lost far from zero
   Box3 box;
   for (const Vec3& p : seen) box.add(view.to_view(p - view.centre));
@@ -183,7 +187,7 @@ void frame(View& view, std::span<const Vec3> seen, const RenderOptions& o) {
   view.centre = view.centre + middle.x * view.right + middle.y * view.up + middle.z * view.back;
   // What is seen edge-on or is a single point still has its depth as a measure.
   const double fit = std::max({size.x / view.width, size.y / view.height, 1e-3 * size.z / view.width});
-  if (fit > 0) view.scale = o.zoom * margin / fit;
+  return fit > 0 ? margin / fit : 1;
 }
 
 /// The places that the frame must hold. \throws Error{input} when nothing is seen
@@ -194,6 +198,7 @@ std::vector<Vec3> seen_places(const TriangleMesh& mesh, const RenderOptions& o) 
     places = seen_corners(mesh, o);
   else
     for (const std::uint32_t v : seen_points(mesh, o)) places.push_back(mesh.vertices[v]);
+  if (mesh.triangles.empty() && o.framing == Framing::bulk) places = bulk_of(std::move(places));
   if (places.empty())
     throw Error(ErrorKind::input, "render", "nothing finite is left to draw", "check the input and the clip plane");
   return places;
@@ -213,24 +218,60 @@ Image draw(const TriangleMesh& mesh, const RenderOptions& o, const View& view, c
 Image render(const TriangleMesh& mesh, const RenderOptions& options) {
   check(options);
   View view = make_view(options);
-  frame(view, seen_places(mesh, options), options);
+  view.scale = options.zoom * frame(view, seen_places(mesh, options));
   return draw(mesh, options, view, Threads());
 }
 
 std::vector<Image> render_alike(const std::vector<TriangleMesh>& meshes, const RenderOptions& options) {
-  check(options);
-  View view = make_view(options);
+  return render_sides(meshes, {options});
+}
+
+std::vector<Image> render_sides(const std::vector<TriangleMesh>& meshes, const std::vector<RenderOptions>& sides) {
+  for (const RenderOptions& options : sides) check(options);
+  std::vector<Image> images;
+  if (meshes.empty() || sides.empty()) return images;
   std::vector<Vec3> places;
   for (const TriangleMesh& mesh : meshes) {
-    const std::vector<Vec3> more = seen_places(mesh, options);
+    const std::vector<Vec3> more = seen_places(mesh, sides[0]);
     places.insert(places.end(), more.begin(), more.end());
   }
-  std::vector<Image> images;
-  if (meshes.empty()) return images;
-  frame(view, places, options);
+  std::vector<View> views;
+  double scale = std::numeric_limits<double>::infinity();
+  for (const RenderOptions& options : sides) {
+    views.push_back(make_view(options));
+    scale = std::min(scale, frame(views.back(), places));
+  }
   const Threads threads;
-  for (const TriangleMesh& mesh : meshes) images.push_back(draw(mesh, options, view, threads));
+  for (const TriangleMesh& mesh : meshes)
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      views[i].scale = sides[i].zoom * scale;
+      images.push_back(draw(mesh, sides[i], views[i], threads));
+    }
   return images;
+}
+
+RenderOptions seen_from(const std::string& side, RenderOptions options) {
+  struct NamedSide {
+    const char* name;
+    double azimuth, elevation;
+  };
+  constexpr std::array<NamedSide, 7> known{{{"front", 0, 0},
+                                            {"right", 90, 0},
+                                            {"back", 180, 0},
+                                            {"left", 270, 0},
+                                            {"top", 0, 90},
+                                            {"bottom", 0, -90},
+                                            {"corner", 30, 20}}};
+  std::string names;
+  for (const NamedSide& s : known) {
+    if (side == s.name) {
+      options.azimuth = s.azimuth;
+      options.elevation = s.elevation;
+      return options;
+    }
+    names += (names.empty() ? "" : ", ") + std::string(s.name);
+  }
+  throw Error(ErrorKind::usage, "render", "'" + side + "' is no view", "use " + names);
 }
 
 } // namespace eigencrust

@@ -17,8 +17,8 @@ struct Edge {
 
 std::vector<Edge> edges_of(std::span<const Triangle> triangles, std::size_t vertices, const Threads& threads) {
   std::vector<Edge> edges;
-  edges.reserve(triangles.size() * 3 / 2);
   const std::vector<Side> sides = sorted_sides(triangles, vertices, threads);
+  edges.reserve(sides.size() / 2);
   for_each_edge(sides, [&](std::span<const Side> edge) {
     if (edge.size() == 2) edges.push_back({edge[0].low, edge[0].high, edge[0].triangle(), edge[1].triangle()});
   });
@@ -83,13 +83,12 @@ std::vector<std::uint32_t> loop_lengths(const std::vector<Edge>& edges, const Fo
 
 /// Edges off the trees, those with the longest loops first, then by their number.
 std::vector<std::uint32_t> by_length(const std::vector<std::uint32_t>& length, std::uint32_t longest) {
-  std::vector<std::size_t> begin(longest + 3, 0); // by longest + 1 - length
-  for (const std::uint32_t l : length) ++begin[longest + 2 - l];
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<std::uint32_t> edges(begin[longest + 1]);
-  for (std::uint32_t i = 0; i < length.size(); ++i)
-    if (length[i] > 0) edges[begin[longest + 1 - length[i]]++] = i;
-  return edges;
+  return build_rows<std::uint32_t>(longest + 1,
+                                   [&](auto&& visit) {
+                                     for (std::uint32_t i = 0; i < length.size(); ++i)
+                                       if (length[i] > 0) visit(longest + 1 - length[i], i);
+                                   })
+      .item;
 }
 
 std::vector<std::uint32_t> loop_through(const Forest& forest, const Edge& edge) {
@@ -113,8 +112,7 @@ std::vector<std::vector<std::uint32_t>> handle_loops(std::span<const Triangle> t
   const auto isolated = static_cast<std::int64_t>(forest.isolated);
   const std::int64_t euler =
       static_cast<std::int64_t>(vertices + triangles.size()) - isolated - static_cast<std::int64_t>(edges.size());
-  if (edges.size() * 2 == triangles.size() * 3 && euler == 2 * (static_cast<std::int64_t>(forest.trees) - isolated))
-    return {};
+  if (euler == 2 * (static_cast<std::int64_t>(forest.trees) - isolated)) return {};
   // The cotree takes the edges with the longest loops, so that the shortest are left.
   const std::vector<std::uint32_t> length = loop_lengths(edges, forest, longest, threads);
   DisjointSets cotree(triangles.size());

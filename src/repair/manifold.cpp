@@ -31,7 +31,8 @@ class PaperRepair {
     for (const std::uint32_t s : round) waiting_[s] = 1;
     while (!round.empty()) {
       for (std::size_t i = 0; i < round.size(); ++i) {
-        if (checkpoint && i % 65536 == 0) checkpoint(static_cast<double>(i) / static_cast<double>(round.size()));
+        if (checkpoint && i % default_block == 0)
+          checkpoint(static_cast<double>(i) / static_cast<double>(round.size()));
         waiting_[round[i]] = 0;
         if (!link_.is_disc(SampleIndex{round[i]})) repair(SampleIndex{round[i]});
       }
@@ -56,9 +57,9 @@ class PaperRepair {
   }
 
   /// How sure the label is; what is known beforehand gives way last.
-  float magnitude(std::uint32_t i) const {
-    constexpr float known_price = 1e6f;
-    return known_[star_[i]] == Label::unlabelled ? std::fabs(labels_.value(star_[i])) : known_price;
+  double magnitude(std::uint32_t i) const {
+    return known_[star_[i]] == Label::unlabelled ? std::fabs(static_cast<double>(labels_.value(star_[i])))
+                                                 : last_resort;
   }
 
   double volume(std::uint32_t i) const {
@@ -108,10 +109,11 @@ class PaperRepair {
 
   bool join_two_outside_components() {
     if (star_.components(labels_.labels(), Label::outside, SampleIndex{}, component_) < 2) return false;
-    const auto length = [&](std::uint32_t i) { return static_cast<double>(magnitude(i)); };
-    for (const std::uint32_t i : shortest_path(star_, component_, length)) set_outside(i);
-    ++counts_.vertices;
-    return true;
+    const auto length = [&](std::uint32_t i) { return magnitude(i); };
+    const std::vector<std::uint32_t> path = shortest_path(star_, component_, length);
+    for (const std::uint32_t i : path) set_outside(i);
+    counts_.vertices += !path.empty();
+    return !path.empty(); // without a way there is nothing to be done here
   }
 
   const Tetrahedralization& t_;

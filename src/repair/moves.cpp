@@ -13,24 +13,13 @@ namespace {
 
 // What a sample is worth that the surface passes by, in units of the energy, where a face costs 0.01 (well borne out by
 // the samples) to 2 (not at all): less than the ties of the three samples of a triangle can say for the space over it,
-// 3 × 0.1 e⁴ (settle/data_term.cpp). On clean scans nineteen of twenty cost less (docs/decisions/0027).
+// 3 × 0.1 e⁴ (settle/data_term.h). On clean scans nineteen of twenty cost less (docs/decisions/0027).
 constexpr double sample_price = 13;
 // Of the samples on the surface: as many passed by are noise or outliers, no one misses them.
 constexpr double most_passed = 0.04;
-// A piece more costs a fan of three faces that nothing bears out, and as much as a handle.
-constexpr double piece_price = 6;
-// What is left over by a move and has so few tetrahedra is no piece.
-constexpr std::size_t most_in_speck = 50;
-// Repairs of a move may turn so many times its own tetrahedra, and some; else it is no small change.
-constexpr std::uint64_t repairs_per_turned = 2, repairs_at_least = 64;
-
-double nearest_sample(const MoveScene& scene, SampleIndex s) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const TetrahedronIndex i : scene.stars[s])
-    for (const SampleIndex v : scene.t.tetrahedra[i])
-      if (v != s) nearest = std::min(nearest, squared_norm(scene.t.positions[v] - scene.t.positions[s]));
-  return std::sqrt(nearest);
-}
+// So few tetrahedra are no piece when a move leaves them over, and may turn with any move to mend what it breaks; with
+// more than twice its own beside it is no small change.
+constexpr std::uint64_t few_tetrahedra = 64;
 
 bool is_passed(const MoveScene& scene, const Labels& labels, SampleIndex s) {
   const auto star = scene.stars[s];
@@ -62,6 +51,14 @@ std::vector<float> prices(const MoveScene& scene, const Labels& labels) {
 
 } // namespace
 
+double nearest_sample(const MoveScene& scene, SampleIndex s) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const TetrahedronIndex i : scene.stars[s])
+    for (const SampleIndex v : scene.t.tetrahedra[i])
+      if (v != s) nearest = std::min(nearest, squared_norm(scene.t.positions[v] - scene.t.positions[s]));
+  return std::sqrt(nearest);
+}
+
 Moves::Moves(const MoveScene& s, TetrahedronLabels& labels)
     : scene(s),
       all_(labels),
@@ -92,7 +89,7 @@ Moves::Outcome Moves::weigh(std::span<const TetrahedronIndex> region, double han
   const std::size_t then = priced_.now();
   const double before = priced_.cost();
   for (const TetrahedronIndex i : region) priced_.turn(i);
-  const bool possible = repair_.run(samples_of(region), region, repairs_per_turned * region.size() + repairs_at_least);
+  const bool possible = repair_.run(samples_of(region), region, 2 * region.size() + few_tetrahedra);
   if (possible) swallow_specks(priced_.turned_since(then));
   Outcome outcome{0, priced_.turned_since(then)};
   const auto& turned = outcome.turned;
@@ -112,7 +109,8 @@ Moves::Outcome Moves::weigh(std::span<const TetrahedronIndex> region, double han
   const std::int64_t pieces = pieces_at(around) - pieces_before, handles = pieces - euler / 2;
   priced_.back_to(then);
   if (handles > 0) return {};
-  outcome.change += (piece_price + handle) * static_cast<double>(pieces) + handle * static_cast<double>(handles);
+  // A piece more costs as much as a handle.
+  outcome.change += handle * static_cast<double>(pieces + handles);
   return outcome;
 }
 
@@ -133,7 +131,7 @@ void Moves::swallow_specks(const std::vector<TetrahedronIndex>& turned) {
           if (seen_[n.value] || !is_speck) continue;
           seen_[n.value] = 1;
           speck.push_back(n);
-          is_speck = speck.size() <= most_in_speck;
+          is_speck = speck.size() <= few_tetrahedra;
         }
       seen.insert(seen.end(), speck.begin(), speck.end());
       if (!is_speck) continue;
@@ -151,7 +149,7 @@ void Moves::relax(const std::vector<TetrahedronIndex>& turned) {
 }
 
 bool Moves::turn_back(TetrahedronIndex i) {
-  constexpr double least = 1e-9; // sums are rounded
+  constexpr double least = std::numeric_limits<float>::epsilon(); // of the terms, which are floats
   if (!(priced_.cost_of(i) < -least)) return false;
   const std::size_t then = priced_.now();
   priced_.turn(i);

@@ -23,9 +23,11 @@ struct MoveScene {
   const SampleModel& model;
   const Threads& threads;
 };
+/// How far the nearest sample around is.
+double nearest_sample(const MoveScene& scene, SampleIndex s);
 
 /// One rule says which moves are made (docs/decisions/0027): those that leave a manifold and decrease
-///   J = E + u · samples passed by + lengths of long triangles + c · pieces + g · handles.
+///   J = E + u · samples passed by + lengths of long triangles + g · (pieces + handles).
 /// The first three are the cost of the labels (PricedLabels); g is that of the place, 0 where there is no noise.
 class Moves {
  public:

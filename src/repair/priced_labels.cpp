@@ -4,14 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/tetrahedron.h"
+#include "samples/scales.h"
+
 namespace eigencrust {
-namespace {
-
-// The energy knows the shape of a triangle and not its size. One that is longer is not borne out by the samples, and
-// costs as many such lengths as it has more.
-constexpr double long_in_spacings = 5;
-
-} // namespace
 
 PricedLabels::PricedLabels(const Tetrahedralization& t, const VertexStars& stars, const Energy& energy,
                            std::span<const float> spacing, std::vector<float> price, TetrahedronLabels& labels,
@@ -51,15 +47,16 @@ double PricedLabels::cost_of(TetrahedronIndex i) const {
 }
 
 double PricedLabels::price_of_length(TetrahedronIndex i, std::size_t k) const {
-  const auto& v = t_.tetrahedra[i];
+  const auto& face = face_opposite[k];
   double longest = 0, spacing = 0;
-  for (std::size_t j = 1; j < 4; ++j) {
-    const SampleIndex a = v[(k + j) % 4], b = v[(k + j % 3 + 1) % 4];
+  for (std::size_t j = 0; j < face.size(); ++j) {
+    const SampleIndex a = t_.tetrahedra[i][face[j]], b = t_.tetrahedra[i][face[(j + 1) % face.size()]];
     longest = std::max(longest, squared_norm(t_.positions[a] - t_.positions[b]));
-    spacing += t_.is_corner(a) ? 0 : static_cast<double>(spacing_[a.value]) / 3;
+    spacing += t_.is_corner(a) ? 0 : static_cast<double>(spacing_[a.value]) / static_cast<double>(face.size());
   }
   if (!(spacing > 0)) return 0; // of the cube
-  return std::max(0.0, std::sqrt(longest) / (long_in_spacings * spacing) - 1);
+  // The energy knows the shape of a triangle and not its size. A long one costs as many such lengths as it has more.
+  return std::max(0.0, std::sqrt(longest) / (longest_edge * spacing) - 1);
 }
 
 void PricedLabels::flip(TetrahedronIndex i) {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Samples that the surface passes by, taken in one tetrahedron at a time (not in the paper;
 // docs/decisions/0027).
-#include <algorithm>
-#include <limits>
-
+#include "geometry/tetrahedron.h"
 #include "repair/generators.h"
 
 namespace eigencrust {
@@ -16,10 +14,8 @@ constexpr double max_loneliness = 1.5;
 /// Turning it puts s on the surface and neither opens nor joins anything.
 TetrahedronIndex best_tetrahedron(const Moves& moves, SampleIndex s) {
   const MoveScene& scene = moves.scene;
-  double least = 0, nearest = std::numeric_limits<double>::infinity();
-  for (const TetrahedronIndex i : scene.stars[s])
-    for (const SampleIndex v : scene.t.tetrahedra[i])
-      if (v != s) nearest = std::min(nearest, distance(scene.t.positions[v], scene.t.positions[s]));
+  const double nearest = nearest_sample(scene, s);
+  double least = 0;
   TetrahedronIndex best;
   for (const TetrahedronIndex i : scene.stars[s]) {
     if (!moves.is_open(i)) continue;
@@ -29,8 +25,9 @@ TetrahedronIndex best_tetrahedron(const Moves& moves, SampleIndex s) {
     const TetrahedronIndex across = scene.t.neighbours[i][k];
     if (!across.valid() || moves.labels()[across] == moves.labels()[i]) continue;
     double spacing = 0; // of the triangle's samples
-    for (const SampleIndex other : v)
-      if (other != s && !scene.t.is_corner(other)) spacing += static_cast<double>(scene.model.spacing[other.value]) / 3;
+    for (const std::size_t j : face_opposite[k])
+      if (!scene.t.is_corner(v[j]))
+        spacing += static_cast<double>(scene.model.spacing[v[j].value]) / static_cast<double>(face_opposite[k].size());
     if (nearest > max_loneliness * spacing) continue;
     const double cost = moves.labels().cost_of(i);
     if (cost >= least) continue;

@@ -9,8 +9,6 @@ namespace eigencrust {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// In units of the energy: more than any tetrahedron, and far more than any star.
-constexpr double known_price = 1e6, held_price = 100;
 
 } // namespace
 
@@ -35,7 +33,7 @@ bool StarRepair::run(std::vector<std::uint32_t> round, std::span<const Tetrahedr
   while (possible && !round.empty()) {
     for (const std::uint32_t s : round) waiting_[s] = 1;
     for (std::size_t k = 0; k < round.size() && possible; ++k) {
-      if (checkpoint && k % 65536 == 0) checkpoint(static_cast<double>(k) / static_cast<double>(round.size()));
+      if (checkpoint && k % default_block == 0) checkpoint(static_cast<double>(k) / static_cast<double>(round.size()));
       waiting_[round[k]] = 0;
       possible = mend(SampleIndex{round[k]}) && counts.relabelled - before <= most;
     }
@@ -91,9 +89,9 @@ bool StarRepair::may_turn(TetrahedronIndex i) const {
   return labels_[i] == Label::inside || (filled_[i] != run_ && known_[i] == Label::unlabelled && !t_.touches_cube(i));
 }
 
-/// What is held gives way late, what is known last.
+/// What is held or known gives way last.
 double StarRepair::extra_price(TetrahedronIndex i) const {
-  return known_[i] != Label::unlabelled ? known_price : held_[i] == run_ ? held_price : 0;
+  return known_[i] != Label::unlabelled || held_[i] == run_ ? last_resort : 0;
 }
 
 double StarRepair::price_of(std::span<const TetrahedronIndex> members) {

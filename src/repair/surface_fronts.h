@@ -14,7 +14,7 @@ namespace eigencrust {
 /// pieces to end, or neighbours to meet.
 class SurfaceFronts {
  public:
-  static constexpr std::uint32_t none = 0xffffffffu;
+  static constexpr std::uint32_t none = no_index;
 
   /// \param owner `none` for every sample and corner, and so again afterwards
   SurfaceFronts(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const PricedLabels& labels,

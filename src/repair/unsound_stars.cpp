@@ -6,6 +6,8 @@
 #include <queue>
 #include <tuple>
 
+#include "parallel/compressed_rows.h"
+
 namespace eigencrust {
 
 bool LinkCheck::is_disc(SampleIndex s) {
@@ -48,16 +50,13 @@ std::size_t LinkCheck::steps_around() const {
 
 std::vector<std::uint32_t> unsound_stars(const Tetrahedralization& t, const VertexStars& stars, const Labels& labels,
                                          const Threads& threads) {
-  constexpr std::size_t block = 4096;
-  std::vector<std::vector<std::uint32_t>> found((t.sample_count + block - 1) / block);
-  for_blocks(threads, t.sample_count, block, [&](std::size_t begin, std::size_t end, std::size_t b) {
-    LinkCheck link(t, stars, labels);
-    for (std::size_t s = begin; s < end; ++s)
-      if (!link.is_disc(SampleIndex{static_cast<std::uint32_t>(s)})) found[b].push_back(static_cast<std::uint32_t>(s));
+  auto rows = build_rows<std::uint32_t>(threads, t.sample_count, default_block, [&] {
+    return [link = LinkCheck(t, stars, labels)](std::size_t at, std::vector<std::uint32_t>& row) mutable {
+      const auto s = static_cast<std::uint32_t>(at);
+      if (!link.is_disc(SampleIndex{s})) row.push_back(s);
+    };
   });
-  std::vector<std::uint32_t> unsound;
-  for (const auto& part : found) unsound.insert(unsound.end(), part.begin(), part.end());
-  return unsound;
+  return std::move(rows.item);
 }
 
 std::uint64_t overruled(const Labels& known, const Labels& labels) {

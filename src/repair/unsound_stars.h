@@ -34,6 +34,10 @@ class LinkCheck {
 std::vector<std::uint32_t> unsound_stars(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
                                          const Labels& labels, const Threads& threads);
 
+/// Price of a tetrahedron that must not turn where anything else will do, in units of the energy: far more than any
+/// star.
+constexpr double last_resort = 1e6;
+
 /// How many labels are not what is known.
 std::uint64_t overruled(const Labels& known, const Labels& labels);
 

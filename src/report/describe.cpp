@@ -14,6 +14,7 @@
 #include "settle/minimum_energy.h"
 #include "surface/surface.h"
 #include "surface/trim.h"
+#include "surface/turned_over.h"
 
 namespace eigencrust {
 namespace {
@@ -32,6 +33,7 @@ std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Option
   if (options.manifold && !mesh.manifold()) broken.emplace_back("manifold");
   if (options.manifold && !mesh.oriented()) broken.emplace_back("consistently oriented");
   if (mesh.self_intersections > 0) broken.emplace_back("free of crossings");
+  if (mesh.closed() && mesh.oriented() && mesh.volume < 0) broken.emplace_back("outward oriented");
   return broken;
 }
 
@@ -57,7 +59,14 @@ void describe(const SampleMeasures& measures, Run& run) {
         "standard deviation of the noise");
 }
 
-void describe(const Tetrahedralization& t, Run& run) { run.count("tetrahedra", t.tetrahedra.size()); }
+void describe(const Tetrahedralization& t, Run& run) {
+  run.count("tetrahedra", t.tetrahedra.size());
+  constexpr double usual = 7, many = 3 * usual; // per sample; points that fill a volume have 6.8
+  const double share = static_cast<double>(t.tetrahedra.size()) / static_cast<double>(t.sample_count);
+  if (share > many)
+    run.warn("there are " + std::to_string(std::lround(share)) + " tetrahedra per sample instead of " +
+             std::to_string(std::lround(usual)) + ": the run takes as many times the memory and time of the forecast");
+}
 
 void describe(const Poles& poles, Run& run) { run.count("poles", poles.tetrahedron.size()); }
 
@@ -155,6 +164,14 @@ void describe(const UnsupportedTriangles& unsupported, Run& run) {
     run.warn(std::to_string(std::lround(100 * report.unsupported_area)) +
              " % of the surface's area was invented: no samples bear it out" +
              (report.one_sided ? " (the sensors all lie on one side)" : "") + "; --trim leaves it out");
+}
+
+void describe(const TurnedOver& turned, Run& run) {
+  run.count("not_smoothed", static_cast<double>(turned.pieces));
+  if (turned.pieces > 0)
+    run.warn(std::to_string(turned.pieces) + (turned.pieces == 1 ? " piece" : " pieces") +
+             " would have been flattened or turned inside out by smoothing and stayed as before; give fewer steps with "
+             "--smooth");
 }
 
 void describe(const PointResults& results, Run& run) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -18,9 +19,12 @@ namespace {
 
 // Measured, see docs/decisions/0018-memory-forecast.md; to be changed here alone.
 constexpr double bytes_of_the_program = 12e6;
-constexpr double bytes_per_point = 1900; ///< coordinates included
-constexpr double copies_of_further = 2;  ///< attributes of the cloud and of the mesh
-constexpr double seconds_per_point = 4e-5;
+constexpr double bytes_per_point = 1050; ///< distinct ones, coordinates included
+constexpr double bytes_per_other = 60;   ///< rows that are no sample of their own
+// Of all stages, per tetrahedron: seven of them for a point.
+constexpr double bytes_per_tetrahedron = bytes_per_point / 7;
+constexpr double copies_of_further = 2; ///< attributes of the cloud and of the mesh
+constexpr double seconds_per_point = 2.7e-5;
 
 constexpr std::uint64_t unknown = std::numeric_limits<std::uint64_t>::max();
 
@@ -82,6 +86,37 @@ std::uint64_t group_limit(const std::filesystem::path& root) {
   return least;
 }
 
+/// Mixes the bits of a point's coordinates (the finalizer of MurmurHash3 by Appleby, public domain).
+std::uint64_t hash_of(const Vec3& p) {
+  std::uint64_t hash = 0;
+  for (const double c : {p.x, p.y, p.z}) {
+    hash ^= std::bit_cast<std::uint64_t>(c + 0.0); // -0 is 0
+    hash = (hash ^ (hash >> 33)) * 0xff51afd7ed558ccdULL;
+    hash = (hash ^ (hash >> 33)) * 0xc4ceb9fe1a85ec53ULL;
+    hash ^= hash >> 33;
+  }
+  return hash;
+}
+
+/// About how many rows have finite coordinates that no row before has. Rows are looked at whose hash is small, so that
+/// of equal ones either all or none are.
+double distinct_points(const std::vector<Vec3>& points) {
+  constexpr std::size_t enough = 1 << 16;
+  const std::uint64_t every = std::max<std::uint64_t>(1, points.size() / enough);
+  std::vector<std::uint64_t> seen;
+  std::uint64_t finite = 0;
+  for (const Vec3& p : points) {
+    if (!is_finite(p)) continue;
+    ++finite;
+    if (const std::uint64_t hash = hash_of(p); hash % every == 0) seen.push_back(hash);
+  }
+  if (seen.empty()) return static_cast<double>(finite);
+  const auto looked_at = static_cast<double>(seen.size());
+  std::sort(seen.begin(), seen.end());
+  const auto distinct = static_cast<double>(std::unique(seen.begin(), seen.end()) - seen.begin());
+  return distinct / looked_at * static_cast<double>(finite);
+}
+
 /// How many points without attributes fit.
 std::uint64_t points_within(std::uint64_t limit, double further_per_point) {
   const double room = static_cast<double>(limit) - bytes_of_the_program;
@@ -107,7 +142,13 @@ std::uint64_t further_bytes(const PointCloud& cloud) {
   return bytes;
 }
 
-Forecast forecast(const PointCloud& cloud) { return forecast(cloud.points.size(), further_bytes(cloud)); }
+Forecast forecast(const PointCloud& cloud) {
+  const double distinct = distinct_points(cloud.points);
+  const double others = static_cast<double>(cloud.points.size()) - distinct;
+  return {whole(bytes_of_the_program + bytes_per_point * distinct + bytes_per_other * others +
+                copies_of_further * static_cast<double>(further_bytes(cloud))),
+          seconds_per_point * distinct};
+}
 
 void check_memory(const PointCloud& cloud, std::uint64_t limit) {
   const std::uint64_t needed = forecast(cloud).memory_bytes, n = cloud.points.size();
@@ -118,6 +159,17 @@ void check_memory(const PointCloud& cloud, std::uint64_t limit) {
                   ", exceeds the limit of " + describe_bytes(limit),
               "raise --max-memory to " + std::to_string(needed / 1'000'000 + 1) + "M or give fewer points, about " +
                   std::to_string(points_within(limit, further)) + " fit");
+}
+
+void check_memory_of_tetrahedra(std::uint64_t tetrahedra, std::uint64_t further, std::uint64_t limit) {
+  if (limit == 0) return;
+  const auto needed = whole(bytes_of_the_program + bytes_per_tetrahedron * static_cast<double>(tetrahedra) +
+                            copies_of_further * static_cast<double>(further));
+  if (needed <= limit) return;
+  throw Error(ErrorKind::memory, "delaunay",
+              "the samples have " + std::to_string(tetrahedra) +
+                  " tetrahedra already, many more than usual: more than " + describe_bytes(limit) + " are needed",
+              "raise --max-memory, or give fewer points; noise or stray points far from the surface can be the reason");
 }
 
 std::uint64_t available_memory_bytes(const std::filesystem::path& root) {

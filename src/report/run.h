@@ -69,6 +69,11 @@ class Run {
     };
   }
 
+  /// For another thread than the caller's: throws when cancelled, and tells of no progress.
+  std::function<void()> cancellation(std::string stage) {
+    return [this, name = std::move(stage)] { throw_if_cancelled(observer_, name); };
+  }
+
   Report& report() { return report_; }
   /// Of the last stage.
   [[nodiscard]] const std::string& name() const { return report_.stages.back().name; }

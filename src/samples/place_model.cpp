@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "samples/local_frame.h"
+#include "samples/scales.h"
 #include "samples/two_sheets.h"
 
 namespace eigencrust {
@@ -19,10 +20,8 @@ constexpr std::array<std::size_t, 3> sizes{narrowest, narrowest* growth, narrowe
 // Neighbourhoods that are not flat must fit so many times into the cloud: a larger one is as thick as the object.
 constexpr std::size_t least_neighbourhoods = 20;
 
-// The middle of the noise is that of the samples within 3 σ, weighted by their distance with a deviation of 2 σ; so
-// many of them say where it is.
+// The middle of the noise is that of the samples within 3 σ, weighted by their distance with a deviation of 2 σ.
 constexpr double deviation_in_sigmas = 2;
-constexpr std::size_t enough_samples = 40;
 
 /// Thickness² = σ² + c radius²: a crease has c > 0 and σ = 0, a smooth surface grows even faster.
 double thickness_without_growth(const LocalFrame& inner, const LocalFrame& outer) {
@@ -101,16 +100,16 @@ MeanPlane PlaceModels::mean_plane(const Vec3& place, double noise) const {
   const double radius = static_cast<double>(noise_bound) * noise, deviation = deviation_in_sigmas * noise;
   std::span<const Vec3> points = positions_;
   std::vector<std::uint32_t> index;
-  for (std::size_t k = coarser_.size(); k-- > 0 && index.size() < enough_samples;) {
+  for (std::size_t k = coarser_.size(); k-- > 0 && index.size() < enough_around;) {
     points = coarser_[k].positions;
     index = coarser_[k].tree.within(place, radius);
   }
-  if (index.size() < enough_samples) {
+  if (index.size() < enough_around) {
     points = positions_;
     index = tree_.within(place, radius);
   }
-  if (index.size() < enough_samples) {
-    index.resize(std::min(enough_samples, points.size()));
+  if (index.size() < enough_around) {
+    index.resize(std::min(enough_around, points.size()));
     std::vector<double> square(index.size());
     tree_.nearest(place, index.size(), index.data(), square.data());
   }

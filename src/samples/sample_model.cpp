@@ -11,19 +11,16 @@
 #include "geometry/nearest.h"
 #include "numerics/quantile.h"
 #include "samples/local_frame.h"
+#include "samples/scales.h"
 
 namespace eigencrust {
 namespace {
 
-// Close pairs, as merged scans have them, do not fool the 12th neighbour.
-constexpr std::size_t spacing_neighbours = 12;
 // One place is measured for so many samples along the curve.
 constexpr std::uint32_t samples_per_place = 64;
-// The noise of a place is the upper quartile of that many places around: spots where nothing is told from curvature
-// must not read as free of it.
-// The level of the surface is the median of as many. Fewer places say nothing of the whole: a small body has edges
-// everywhere.
-constexpr std::size_t places_around = 48;
+// The noise of a place is the upper quartile of the places around: spots where nothing is told from curvature must not
+// read as free of it. The level of the surface is the median of as many. Fewer places say nothing of the whole: a small
+// body has edges everywhere.
 constexpr double smoothing_quantile = 0.75;
 // A sample is isolated when it stands so many times lonelier ...
 constexpr double isolation = 2.5;
@@ -43,8 +40,8 @@ std::vector<float> spacings(const PointTree& tree, std::span<const Vec3> positio
   for_each_index(
       threads, positions.size(),
       [&](std::size_t i) {
-        std::array<std::uint32_t, spacing_neighbours + 1> index{};
-        std::array<double, spacing_neighbours + 1> square{};
+        std::array<std::uint32_t, neighbours_around + 1> index{};
+        std::array<double, neighbours_around + 1> square{};
         const std::size_t found = tree.nearest(positions[i], index.size(), index.data(), square.data());
         result[i] = static_cast<float>(spacing_at(std::sqrt(square[found - 1]), found - 1));
       },
@@ -92,8 +89,8 @@ Surroundings flat_places_around(const Places& places, const Threads& threads) {
   if (at.empty()) return result;
   const PointTree tree(at);
   const auto look = [&](std::size_t p) {
-    std::array<std::uint32_t, places_around> index{};
-    std::array<double, places_around> square{};
+    std::array<std::uint32_t, enough_around> index{};
+    std::array<double, enough_around> square{};
     const std::size_t found = tree.nearest(places.at[p], index.size(), index.data(), square.data());
     std::vector<float> spacing, noise;
     for (const std::uint32_t i : std::span(index).first(found)) {
@@ -147,7 +144,7 @@ SampleModel sample_model(std::span<const Vec3> positions, std::optional<double> 
   model.typical_spacing = typical_of(model.spacing);
   const PlaceModels models(positions, tree);
   const Places places = measure_places(models, positions, model.spacing, threads);
-  if (places.at.size() >= places_around)
+  if (places.at.size() >= enough_around)
     model.flat_share = static_cast<double>(std::count_if(places.model.begin(), places.model.end(),
                                                          [](const PlaceModel& m) { return m.is_flat; })) /
                        static_cast<double>(places.at.size());

@@ -8,6 +8,7 @@
 #include "geometry/exact_difference.h"
 #include "geometry/nearest.h"
 #include "geometry/spatial_order.h"
+#include "geometry/tetrahedron.h"
 #include "numerics/quantile.h"
 #include "parallel/threads.h"
 
@@ -71,7 +72,6 @@ Vec3 exact_origin(std::span<const Vec3> points, const Box3& box, const Threads& 
 } // namespace
 
 Samples prepare_samples(std::span<const Vec3> points, const Threads& threads) {
-  constexpr std::size_t cube_corners = 8; // the tetrahedralization numbers them behind the samples
   constexpr std::size_t most = no_index - cube_corners;
   if (points.size() > most)
     throw Error(ErrorKind::input, "samples", "more than " + std::to_string(most) + " points", "split the cloud");

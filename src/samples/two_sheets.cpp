@@ -13,9 +13,9 @@ constexpr double least_gap_in_deviations = 5;
 // A few stray points are no sheet.
 constexpr double least_share = 1.0 / 6;
 
-// Six terms of z(x, y), and how much higher the upper sheet is.
-using Fit = Eigen::Matrix<double, 7, 1>;
-constexpr Eigen::Index is_upper = Fit::RowsAtCompileTime - 1; // the term that is 1 on the upper sheet
+/// Terms of z(x, y), and last the one that is 1 on the upper sheet: how much higher that is.
+enum Term : Eigen::Index { constant, in_x, in_y, in_xx, in_xy, in_yy, is_upper, terms };
+using Fit = Eigen::Matrix<double, terms, 1>;
 
 /// Heights over the best quadric that both sheets share.
 class SheetFit {
@@ -25,9 +25,7 @@ class SheetFit {
     for (const std::uint32_t i : index) {
       const Vec3 d = points[i] - frame.mean;
       const double x = dot(d, frame.axis[1]) / scale, y = dot(d, frame.axis[2]) / scale;
-      Fit terms;
-      terms << 1, x, y, x * x, x * y, y * y, 0;
-      terms_.push_back(terms);
+      terms_.push_back(Fit{{1, x, y, x * x, x * y, y * y, 0}});
       height_.push_back(dot(d, frame.axis[0]));
     }
   }

@@ -8,9 +8,15 @@
 
 #include <eigencrust/stages.h>
 
+#include "poles/pole_weights.h"
 #include "settle/noise_planes.h"
 
 namespace eigencrust {
+
+/// What a tie weighs where its directions are at right angles, and where they agree (docs/decisions/0026: 0.03 to 0.3
+/// make little difference); in units of a face's weight.
+constexpr double tie = 0.1;
+inline const double strongest_tie = tie * std::exp(steepness);
 
 /// Costs in units of a face's weight.
 struct DataTerm {
@@ -34,6 +40,7 @@ class DataTerms {
   void add_ties(SampleIndex s, TetrahedronIndex i, const Vec3& centre, DataTerm& sum) const;
   void add_heights(TetrahedronIndex i, DataTerm& sum) const;
   void add_lines(TetrahedronIndex i, DataTerm& sum) const;
+  [[nodiscard]] double trust_in(TetrahedronIndex i) const { return static_cast<double>(labels_.trust[i]) / full_trust; }
   [[nodiscard]] bool has_plane(SampleIndex s) const { return !t_.is_corner(s) && planes_.has(s); }
 
   const Tetrahedralization& t_;

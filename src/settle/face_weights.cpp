@@ -3,17 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "geometry/tetrahedron.h"
 #include "tetrahedra/circumsphere.h"
 
 namespace eigencrust {
 namespace {
 
 // Two bytes a face: the measure need not be known better.
-constexpr double steps = 30000;
+constexpr double steps = std::numeric_limits<std::int16_t>::max();
 
 std::array<std::int16_t, 4> cosines(const std::array<Vec3, 4>& p) {
-  const Vec3 centre = circumcentre(p[0], p[1], p[2], p[3]);
+  const Vec3 centre = std::apply(circumcentre, p);
   const double radius = distance(centre, p[0]);
   std::array<std::int16_t, 4> result{};
   for (std::size_t k = 0; k < 4; ++k) {
@@ -30,9 +32,7 @@ std::array<std::int16_t, 4> cosines(const std::array<Vec3, 4>& p) {
 
 FaceWeights::FaceWeights(const Tetrahedralization& t, const Threads& threads) : t_(&t), cosine_(t.tetrahedra.size()) {
   for_each_index(threads, t.tetrahedra.size(), [&](std::size_t i) {
-    std::array<Vec3, 4> p;
-    for (std::size_t k = 0; k < 4; ++k) p[k] = t.positions[t.tetrahedra.raw()[i][k]];
-    cosine_.raw()[i] = cosines(p);
+    cosine_.raw()[i] = cosines(corners_of(t, TetrahedronIndex{static_cast<std::uint32_t>(i)}));
   });
 }
 

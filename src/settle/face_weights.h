@@ -22,7 +22,8 @@ class FaceWeights {
   /// Of the face opposite vertex k of tetrahedron i; in [ε, 2 + ε].
   [[nodiscard]] float operator()(TetrahedronIndex i, std::size_t k) const;
 
-  static constexpr float least = 0.01f; ///< ε
+  static constexpr float least = 0.01f;       ///< ε
+  static constexpr float largest = 2 + least; ///< where both centres lie right across the face
 
  private:
   const Tetrahedralization* t_ = nullptr;

@@ -15,14 +15,16 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "parallel/compressed_rows.h"
+
 namespace eigencrust {
 namespace {
 
-using Number = std::uint32_t;       ///< of a node
-constexpr unsigned at_terminal = 4; ///< a parent that is the source or the sink itself
-constexpr unsigned no_parent = 5;
+using Number = std::uint32_t; ///< of a node
+/// Where a node hangs: at the arc of that number, or at the source or the sink itself, or nowhere.
+enum Parent : std::uint8_t { first_arc, second_arc, third_arc, fourth_arc, at_terminal, no_parent };
 /// Nodes of a part that one thread solves on its own at first. Neighbours should mostly be in the same part.
-constexpr Number part_size = 1 << 16;
+constexpr Number part_size = long_block;
 
 /// All that a step of the search needs of a node.
 struct Node {
@@ -36,9 +38,8 @@ struct Node {
   std::uint8_t sisters;                  ///< 2 bits per arc: which of the other node's arcs leads back
   bool active;                           ///< in the queue
 
-  [[nodiscard]] unsigned sister(unsigned arc) const { return (sisters >> (2 * arc)) & 3u; }
+  [[nodiscard]] unsigned sister(unsigned arc) const { return (sisters >> (2 * arc)) % 4; }
 };
-static_assert(sizeof(Node) == 40);
 
 void fill_node(const CutProblem& problem, Number i, Node& node) {
   std::int32_t total = 0;

@@ -5,7 +5,10 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
+
+#include <eigencrust/types.h>
 
 #include "parallel/threads.h"
 
@@ -18,8 +21,8 @@ struct CutProblem {
   std::vector<std::array<std::uint32_t, 4>> neighbour; ///< of each node; CutProblem::none where there is none
   std::vector<std::array<std::uint16_t, 4>> capacity;  ///< of the edge to each neighbour; the same from both sides
   std::vector<std::int32_t> terminal; ///< > 0: capacity from the source (outside); < 0: to the sink (inside); net
-  static constexpr std::uint16_t largest_capacity = 32767;
-  static constexpr std::uint32_t none = 0xffffffffu;
+  static constexpr std::uint16_t largest_capacity = std::numeric_limits<std::int16_t>::max();
+  static constexpr std::uint32_t none = no_index;
 };
 
 enum class CutSide : std::uint8_t { source, sink, either };

@@ -10,8 +10,8 @@
 namespace eigencrust {
 namespace {
 
-// Capacities are whole numbers: a thousandth of a weight is small beside ε.
-constexpr double units = 1000;
+// Capacities are whole numbers, as fine as the heaviest face allows.
+constexpr double units = CutProblem::largest_capacity / static_cast<double>(FaceWeights::largest);
 
 std::int64_t in_units(float cost) { return std::llround(units * static_cast<double>(cost)); }
 

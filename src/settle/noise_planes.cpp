@@ -6,13 +6,14 @@
 #include <cmath>
 
 #include "geometry/nearest.h"
+#include "geometry/tetrahedron.h"
+#include "samples/scales.h"
 
 namespace eigencrust {
 namespace {
 
-// Each plane takes the side that so many planes around vote for, so often.
-constexpr std::size_t voters = 12;
-constexpr int votes = 3;
+// Each plane takes the side that those around vote for.
+constexpr std::size_t voters = neighbours_around;
 // Planes are averaged with those around, with Gaussian weights; not with those beyond a crease.
 constexpr double smoothing_in_sigmas = 2, least_cosine = 0.3;
 
@@ -21,9 +22,7 @@ std::vector<Vec3> known_places(const Tetrahedralization& t, const Poles& poles, 
   std::vector<Vec3> places;
   for (const TetrahedronIndex i : poles.tetrahedron) {
     if (labels[i] != side || t.touches_cube(i)) continue;
-    Vec3 centroid;
-    for (const SampleIndex s : t.tetrahedra[i]) centroid = centroid + 0.25 * t.positions[s];
-    places.push_back(centroid);
+    places.push_back(centroid(corners_of(t, i)));
   }
   return places;
 }
@@ -60,16 +59,16 @@ Planes planes_of(const SampleModel& model, const Threads& threads) {
         planes.around[p].fill(static_cast<std::uint32_t>(p));
         tree.nearest(planes.mean[p], std::min(voters, planes.run.size()), planes.around[p].data(), square.data());
       },
-      256);
+      costly_block);
   return planes;
 }
 
-/// > 0 where the normal looks outward: from the nearest pole inside to the nearest outside; then by votes of the planes
-/// around, for those whose poles say nothing or are wrong.
+/// > 0 where the normal looks outward: from the nearest pole inside to the nearest outside; then by a vote of the
+/// planes around, for those whose poles say nothing or are wrong.
 std::vector<double> sides_of(const Planes& planes, std::span<const Vec3> outside, std::span<const Vec3> inside,
                              const Threads& threads) {
   const PointTree outside_tree(outside), inside_tree(inside);
-  std::vector<double> side(planes.run.size()), next(side.size());
+  std::vector<double> side(planes.run.size());
   for_each_index(
       threads, side.size(),
       [&](std::size_t p) {
@@ -77,16 +76,14 @@ std::vector<double> sides_of(const Planes& planes, std::span<const Vec3> outside
         const Vec3 way = nearest_of(outside_tree, outside, at) - nearest_of(inside_tree, inside, at);
         side[p] = norm(way) > 0 ? dot(way, planes.normal[p]) / norm(way) : 0;
       },
-      256);
-  for (int vote = 0; vote < votes; ++vote) {
-    for_each_index(threads, side.size(), [&](std::size_t p) {
-      double sum = 0;
-      for (const std::uint32_t q : planes.around[p]) sum += side[q] * dot(planes.normal[q], planes.normal[p]);
-      next[p] = std::clamp(sum, -1.0, 1.0);
-    });
-    side.swap(next);
-  }
-  return side;
+      costly_block);
+  std::vector<double> voted(side.size());
+  for_each_index(threads, side.size(), [&](std::size_t p) {
+    double sum = 0;
+    for (const std::uint32_t q : planes.around[p]) sum += side[q] * dot(planes.normal[q], planes.normal[p]);
+    voted[p] = sum;
+  });
+  return voted;
 }
 
 /// Smoother, by the planes around with the weights that each has for its samples; none wider, for a wide mean of

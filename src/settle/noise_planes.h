@@ -25,9 +25,8 @@ class NoisePlanes {
   }
   /// Is p near enough to the sample's plane for it to know? Beyond, at thin parts, there is another surface.
   [[nodiscard]] bool is_near(SampleIndex s, const Vec3& p) const {
-    constexpr double farthest_in_sigmas = 6;
     return distance(p, plane_[s.value / SampleModel::run].mean) <
-           farthest_in_sigmas * static_cast<double>(model_.noise[s.value]);
+           static_cast<double>(2 * noise_bound * model_.noise[s.value]);
   }
   /// Height of p over the sample's plane in deviations of the noise, > 0 outside.
   [[nodiscard]] double height(SampleIndex s, const Vec3& p) const {

@@ -5,7 +5,7 @@
 
 #include <eigencrust/stages.h>
 
-#include "parallel/threads.h"
+#include "parallel/compressed_rows.h"
 
 namespace eigencrust {
 namespace {
@@ -14,7 +14,9 @@ namespace {
 double face_weight(const Tetrahedralization& t, const std::array<SampleIndex, 4>& v, std::size_t k) {
   const Vec3 &a = t.positions[v[(k + 1) % 4]], &b = t.positions[v[(k + 2) % 4]], &c = t.positions[v[(k + 3) % 4]];
   const double ab = squared_norm(a - b), bc = squared_norm(b - c), ca = squared_norm(c - a);
-  return std::sqrt(std::max({ab, bc, ca}) / std::min({ab, bc, ca}));
+  // Sums of weights stay numbers, in 32 bits, where one edge is 1e40 times as long as another.
+  constexpr double most = 1e15;
+  return std::min(most, std::sqrt(std::max({ab, bc, ca}) / std::min({ab, bc, ca})));
 }
 
 } // namespace
@@ -29,37 +31,25 @@ TetrahedronGraph tetrahedron_graph(const Tetrahedralization& t, const Labels& la
   }
   const std::uint32_t nodes = result.tetrahedron.size();
   SignedGraph& graph = result.graph;
-  graph.row_begin.assign(nodes + 1, 0);
-  for_each_index(threads, nodes, [&](std::size_t i) {
-    for (const TetrahedronIndex n : t.neighbours[result.tetrahedron.raw()[i]])
-      if (n.valid() && node_of[n.value] != NodeIndex::none) ++graph.row_begin[i + 1];
-  });
-  for (std::uint32_t i = 0; i < nodes; ++i) graph.row_begin[i + 1] += graph.row_begin[i];
-  graph.column.resize(graph.row_begin[nodes]);
-  graph.weight.resize(graph.row_begin[nodes]);
   graph.supernodes.assign(2, {std::vector<float>(nodes, 0.0f)});
-  for_each_index(threads, nodes, [&](std::size_t i) {
-    const TetrahedronIndex tetrahedron = result.tetrahedron.raw()[i];
-    // Insertion keeps the row sorted; it has at most four entries.
-    std::uint64_t end = graph.row_begin[i];
-    for (std::size_t k = 0; k < 4; ++k) {
-      const TetrahedronIndex n = t.neighbours[tetrahedron][k];
-      if (!n.valid()) continue;
-      const auto w = static_cast<float>(face_weight(t, t.tetrahedra[tetrahedron], k));
-      const std::uint32_t node = node_of[n.value];
-      if (node == NodeIndex::none) {
-        graph.supernodes[labels[n] == Label::outside ? 0 : 1].weight[i] += w;
-        continue;
+  using Entry = std::pair<std::uint32_t, float>; // column and weight
+  auto rows = build_rows<Entry>(threads, nodes, default_block, [&] {
+    return [&](std::size_t i, std::vector<Entry>& row) {
+      const auto begin = static_cast<std::ptrdiff_t>(row.size());
+      const TetrahedronIndex tetrahedron = result.tetrahedron.raw()[i];
+      for (std::size_t k = 0; k < 4; ++k) {
+        const TetrahedronIndex n = t.neighbours[tetrahedron][k];
+        if (!n.valid()) continue;
+        const auto w = static_cast<float>(face_weight(t, t.tetrahedra[tetrahedron], k));
+        if (node_of[n.value] == NodeIndex::none)
+          graph.supernodes[labels[n] == Label::outside ? 0 : 1].weight[i] += w;
+        else
+          row.emplace_back(node_of[n.value], w);
       }
-      std::uint64_t at = end++;
-      for (; at > graph.row_begin[i] && graph.column[at - 1] > node; --at) {
-        graph.column[at] = graph.column[at - 1];
-        graph.weight[at] = graph.weight[at - 1];
-      }
-      graph.column[at] = node;
-      graph.weight[at] = w;
-    }
+      std::sort(row.begin() + begin, row.end());
+    };
   });
+  split_rows(std::move(rows), graph.row_begin, graph.column, graph.weight, threads);
   // The one negative edge: as strong as all other edges of the supernodes together.
   double sum = 0;
   for (const SignedGraph::Supernode& super : graph.supernodes)

@@ -12,14 +12,13 @@
 #include "geometry/mesh_topology.h"
 #include "parallel/threads.h"
 #include "surface/components.h"
-#include "surface/drop_triangles.h"
+#include "surface/shells.h"
 
 namespace eigencrust {
 namespace {
 
-// docs/decisions/0004: specks, pieces that the samples do not bear out, and those of outliers.
-constexpr double speck_vertices = 20, speck_share = 5e-4;
-constexpr double least_support = 0.4;
+// docs/decisions/0004: specks, by the largest piece's vertices, and pieces that the samples do not bear out.
+constexpr double speck_share = 5e-4, least_support = 0.4;
 // Of its vertices: isolated samples are on no surface, and on the largest piece of scans full of outliers 0.01 at most.
 constexpr double most_isolated = 0.05;
 // Mean bend of a piece's edges, in radians (45°). Clumps have 48° to 65°, surfaces as noisy as the spacing 36° to 42°.
@@ -55,8 +54,9 @@ void measure(const Surface& surface, const SampleModel& model, std::uint32_t num
   }
 }
 
-std::vector<Piece> measure_pieces(const Surface& surface, const SampleModel& model, const Threads& threads) {
-  const std::vector<std::uint32_t> component = triangle_components(surface.mesh, threads.size());
+/// \param component of each triangle
+std::vector<Piece> measure_pieces(const Surface& surface, std::span<const std::uint32_t> component,
+                                  const SampleModel& model) {
   std::vector<Piece> pieces;
   for (std::uint32_t i = 0; i < component.size(); ++i) {
     if (component[i] >= pieces.size()) pieces.resize(component[i] + 1);
@@ -96,7 +96,7 @@ std::vector<std::uint8_t> supported(const Surface& surface, const std::vector<Pi
   std::vector<std::uint32_t> number(surface.mesh.vertices.size());
   for (std::size_t k = 1; k < order.size(); ++k) {
     const Piece& piece = pieces[order[k]];
-    const double least = speck_vertices + speck_share * static_cast<double>(pieces[order[0]].vertices.size());
+    const double least = speck_share * static_cast<double>(pieces[order[0]].vertices.size());
     kept[order[k]] = static_cast<double>(piece.vertices.size()) >= least && piece.support >= least_support &&
                      !is_crumpled(surface, piece, number);
   }
@@ -143,9 +143,11 @@ void drop_triangles(std::span<const std::uint8_t> gone, Surface& surface) {
 
 std::vector<DroppedComponent> filter_components(Surface& surface, const KeepComponents& keep,
                                                 const Tetrahedralization& t, const SampleModel& model,
-                                                const Threads& threads) {
-  const std::vector<Piece> pieces = measure_pieces(surface, model, threads);
-  const std::vector<std::uint8_t> kept = choose(surface, pieces, keep);
+                                                const Labels& labels, const Threads& threads) {
+  const std::vector<std::uint32_t> component = triangle_components(surface.mesh, threads.size());
+  const std::vector<Piece> pieces = measure_pieces(surface, component, model);
+  std::vector<std::uint8_t> kept = choose(surface, pieces, keep);
+  settle_cavities(surface, component, t, labels, keep.kind == KeepComponents::Kind::supported, kept);
   std::vector<DroppedComponent> dropped;
   std::vector<std::uint8_t> gone(surface.mesh.triangles.size(), 0);
   for (std::size_t c = 0; c < pieces.size(); ++c) {

@@ -6,6 +6,7 @@
 #include "geometry/exact_difference.h"
 #include "numerics/quantile.h"
 #include "surface/surface.h"
+#include "surface/turned_over.h"
 
 namespace eigencrust {
 namespace {
@@ -49,27 +50,31 @@ MovedReport distances_moved(std::span<const Vec3> before, std::span<const Vec3> 
           *std::max_element(distances.begin(), distances.end())};
 }
 
-std::vector<Vec3> input_points(const TriangleMesh& mesh, std::span<const SampleIndex> sample_of,
-                               const Tetrahedralization& t, const PointCloud& cloud) {
+std::vector<Vec3> input_points(std::span<const SampleIndex> sample_of, const Tetrahedralization& t,
+                               const PointCloud& cloud) {
   std::vector<Vec3> points;
-  points.reserve(mesh.vertices.size());
+  points.reserve(sample_of.size());
   for (const SampleIndex s : sample_of) points.push_back(cloud.points[t.source[s]]);
   return points;
 }
 
-/// The surface in input coordinates with the attributes of its points and source_index. Vertices that were not moved
-/// are the input's rows bit for bit.
-TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, const PointCloud& cloud) {
+/// Puts the vertices into input coordinates, those that were not moved bit for bit.
+void to_input_coordinates(Surface& surface, const Tetrahedralization& t, const std::vector<Vec3>& rows) {
+  for (std::size_t v = 0; v < rows.size(); ++v) {
+    Vec3& place = surface.mesh.vertices[v];
+    place = place == t.positions[surface.sample_of[v]] ? rows[v] : place + t.origin;
+  }
+}
+
+/// The surface, whose vertices are in input coordinates, with the attributes of its points and source_index.
+TriangleMesh finish_mesh(Surface& surface, const Tetrahedralization& t, const PointCloud& cloud) {
   TriangleMesh mesh;
   mesh.triangles = surface.mesh.triangles;
   std::vector<std::uint32_t> source;
   source.reserve(surface.sample_of.size());
   for (const SampleIndex s : surface.sample_of) source.push_back(t.source[s]);
   mesh.vertices.reserve(source.size());
-  for (std::size_t v = 0; v < source.size(); ++v) {
-    const Vec3& at = surface.mesh.vertices[v];
-    mesh.vertices.push_back(at == t.positions[surface.sample_of[v]] ? cloud.points[source[v]] : at + t.origin);
-  }
+  mesh.vertices = std::move(surface.mesh.vertices);
   for (const Attribute& attribute : cloud.attributes) mesh.vertex_attributes.push_back(gather(attribute, source));
   mesh.vertex_attributes.push_back(make_attribute("source_index", source));
   if (!cloud.scan_index.empty()) {
@@ -86,18 +91,23 @@ TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, co
 
 TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene, const Context& context) {
   const auto& [options, run, threads] = context;
-  bool moved = fit(surface, scene, context);
-  if (options.smooth > 0) {
-    run.stage("smoothing", [&] { smooth(surface.mesh, options.smoothing, options.smooth, threads); });
-    moved = true;
-  }
   const Tetrahedralization& t = scene.tetrahedralization;
-  TriangleMesh mesh = run.stage("attributes", [&] { return finish_mesh(surface, t, cloud); });
-  if (!moved) return mesh;
-  const std::vector<Vec3> before = input_points(mesh, surface.sample_of, t, cloud);
-  run.stage("crossings", [&] { return uncross(before, scene.measures.model.typical_spacing, mesh, threads); });
-  run.report().moved = distances_moved(before, mesh.vertices);
-  return mesh;
+  const std::vector<Vec3> rows = input_points(surface.sample_of, t, cloud);
+  const bool fitted = fit(surface, scene, context);
+  if (options.smooth > 0)
+    run.stage("smoothing", [&] {
+      smooth(surface.mesh, options.smoothing, options.smooth, threads);
+      to_input_coordinates(surface, t, rows); // where this rounds, neighbours could meet
+      return take_back_turned(rows, surface.mesh, threads);
+    });
+  else
+    to_input_coordinates(surface, t, rows);
+  const bool moved = fitted || options.smooth > 0;
+  if (moved) {
+    run.stage("crossings", [&] { return uncross(rows, scene.measures.model.typical_spacing, surface.mesh, threads); });
+    run.report().moved = distances_moved(rows, surface.mesh.vertices);
+  }
+  return run.stage("attributes", [&] { return finish_mesh(surface, t, cloud); });
 }
 
 void check(const TriangleMesh& mesh, const PointCloud& cloud, const Scene& scene, const ValidateOptions& checks,

@@ -14,9 +14,11 @@
 namespace eigencrust {
 namespace {
 
-void require_surface(const Surface& surface) {
+/// \param found pieces before some of them were left out
+void require_surface(const Surface& surface, bool found) {
   if (surface.mesh.triangles.empty())
-    throw Error(ErrorKind::no_surface, "surface", "every tetrahedron was labelled outside",
+    throw Error(ErrorKind::no_surface, "surface",
+                found ? "nothing but the wall of a cavity was found" : "every tetrahedron was labelled outside",
                 "check that the points surround a volume, give less --noise or off, or name an inside point");
 }
 
@@ -92,8 +94,10 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels(), threads); });
   run.product("surface", [&] { return snapshot_of_surface(t, surface); });
   run.stage("support", [&] { measure_support(t, labels, model, grid, surface, threads); });
-  run.stage("components", [&] { return filter_components(surface, options.components, t, model, threads); });
-  require_surface(surface);
+  const bool found = !surface.mesh.triangles.empty();
+  run.stage("components",
+            [&] { return filter_components(surface, options.components, t, model, labels.labels(), threads); });
+  require_surface(surface, found);
   if (options.components.kind == KeepComponents::Kind::supported) require_samples_near(surface, scene, threads);
   describe(samples_apart(surface, scene, threads), run);
   const bool one_sided = options.facade.has_value() || evidence.one_sided.has_value();
@@ -104,7 +108,7 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   });
   if (options.trim) {
     trim(std::move(unsupported.marked), surface);
-    describe(filter_components(surface, options.components, t, model, threads), run);
+    describe(filter_components(surface, options.components, t, model, labels.labels(), threads), run);
     require_trimmed(surface);
   }
   return surface;

@@ -3,23 +3,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <eigencrust/stages.h>
 
 #include "geometry/mesh_topology.h"
 #include "parallel/threads.h"
-#include "surface/drop_triangles.h"
+#include "samples/scales.h"
+#include "surface/components.h"
 #include "surface/trim.h"
 
 namespace eigencrust {
 namespace {
 
-// Longer edges, in local spacings, lead over what was not sampled; the support of such a triangle is at most 1/4.
-constexpr double longest_edge = 10;
+// Edges twice as long as a surface has them lead over what was not sampled; the support of such a triangle is at most
+// this.
+constexpr double longest_kept = 2 * longest_edge;
 constexpr float least_support = 0.25f;
 // A scanner sees no surface at a flatter angle; triangles that do lie so lead from one depth to another.
-const double flattest = std::cos(85 * std::numbers::pi / 180);
+constexpr double flattest = 0.08716; // cosine of 85°
 
 std::array<Vec3, 3> corners(const TriangleMesh& mesh, std::size_t i) {
   const auto& [a, b, c] = mesh.triangles[i];
@@ -88,10 +89,9 @@ std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& t, con
     for (std::size_t k = 0; k < 3; ++k) {
       const SampleIndex s = surface.sample_of[surface.mesh.triangles[i][k]];
       longest = std::max(longest, distance(p[k], p[(k + 1) % 3]));
-      spacing = std::min(
-          spacing, model.isolated[s.value] > 0 ? model.typical_spacing : static_cast<double>(model.spacing[s.value]));
+      spacing = std::min(spacing, static_cast<double>(model.spacing[s.value]));
     }
-    unsupported[i] = surface.support[i] < least_support || longest > longest_edge * spacing ||
+    unsupported[i] = surface.support[i] < least_support || longest > longest_kept * spacing ||
                      !is_seen(t, lines, one_sided, surface, i);
   });
   return unsupported;

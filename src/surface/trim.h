@@ -10,9 +10,10 @@
 namespace eigencrust {
 
 /// The triangles that the samples do not bear out (1): their support is below 1/4, or their longest edge exceeds 10
-/// times the smallest local spacing of their vertices (of isolated ones: the typical one), or no line of sight of
-/// their vertices meets their front within 85° of the normal, in a one-sided scan: none of some vertex (not in the
-/// paper; docs/decisions/0020). Expects surface.support. \param lines as sight_lines() gives them; may be empty
+/// times the smallest local spacing of their vertices (of isolated ones: that of the surface nearest to them), or no
+/// line of sight of their vertices meets their front within 85° of the normal, in a one-sided scan: none of some vertex
+/// (not in the paper; docs/decisions/0020). Expects surface.support. \param lines as sight_lines() gives them; may be
+/// empty
 std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& tetrahedralization, const SampleModel& model,
                                                 std::span<const SightLine> lines, bool one_sided,
                                                 const Surface& surface, const Threads& threads);

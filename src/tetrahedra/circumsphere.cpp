@@ -4,12 +4,10 @@
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Simple_cartesian.h>
 
-#include <limits>
+#include "geometry/predicates.h"
 
 namespace eigencrust {
 namespace {
-
-const double half_the_digits = std::sqrt(std::numeric_limits<double>::epsilon());
 
 Vec3 exact_circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   using Exact = CGAL::Simple_cartesian<CGAL::Exact_rational>;

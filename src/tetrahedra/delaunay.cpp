@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <thread>
 
 #include <eigencrust/error.h>
 #include <eigencrust/stages.h>
@@ -17,6 +18,7 @@
 #include "geometry/predicates.h"
 #include "geometry/tetrahedron.h"
 #include "parallel/compressed_rows.h"
+#include "tetrahedra/growth.h"
 
 namespace eigencrust {
 namespace {
@@ -27,14 +29,24 @@ using CellBase =
     CGAL::Triangulation_cell_base_with_info_3<std::uint32_t, Kernel, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
 using Delaunay = CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 
+// Where the time goes, of a million points: the rest is for the copy in our own order.
+constexpr double share_of_insertion = 0.85;
+
 // "Much wider than the cloud" (§3): no sample may lie near a side.
 constexpr double cube_half_side_in_diagonals = 10;
 
+// A sample among thousands of tetrahedra takes a thousandth of a second, any other a thousandth of that.
+constexpr std::uint32_t samples_between_looks = 32;
+
 /// In random rounds, each four times as large as the one before and along the Hilbert curve (BRIO; Amenta, Choi, Rote
 /// 2003).
-void insert_all(Delaunay& delaunay, const IndexedArray<SampleIndex, Vec3>& positions, std::uint32_t samples) {
+void insert_all(Delaunay& delaunay, const IndexedArray<SampleIndex, Vec3>& positions, std::uint32_t samples,
+                const WatchGrowth& watch) {
   Delaunay::Cell_handle hint;
+  std::uint32_t done = 0;
   const auto insert = [&](std::uint32_t i) {
+    if (watch && ++done % samples_between_looks == 0)
+      watch(share_of_insertion * done / positions.size(), delaunay.tds().number_of_cells());
     const Vec3& p = positions.raw()[i];
     const Delaunay::Vertex_handle v = delaunay.insert({p.x, p.y, p.z}, hint);
     v->info() = i;
@@ -92,16 +104,11 @@ void copy_cells(Delaunay& delaunay, Tetrahedralization& result, const Threads& t
 /// Tetrahedra by their vertices: by the first with counting, then within each first vertex.
 std::vector<std::uint32_t> sorted_order(const Tetrahedralization& t, const Threads& threads) {
   const auto& tetrahedra = t.tetrahedra.raw();
-  const std::size_t vertices = t.positions.size();
-  auto [begin, order] = build_rows<std::uint32_t>(vertices, [&](auto&& visit) {
+  auto rows = build_rows<std::uint32_t>(t.positions.size(), [&](auto&& visit) {
     for (std::uint32_t i = 0; i < tetrahedra.size(); ++i) visit(tetrahedra[i][0].value, i);
   });
-  for_each_index(threads, vertices, [&, &begin = begin, &order = order](std::size_t v) {
-    const auto at = [&](std::uint64_t k) { return order.begin() + static_cast<std::ptrdiff_t>(k); };
-    std::sort(at(begin[v]), at(begin[v + 1]),
-              [&](std::uint32_t a, std::uint32_t b) { return tetrahedra[a] < tetrahedra[b]; });
-  });
-  return std::move(order);
+  sort_rows(rows, threads, [&](std::uint32_t a, std::uint32_t b) { return tetrahedra[a] < tetrahedra[b]; });
+  return std::move(rows.item);
 }
 
 /// From the engine's order, which depends on the order of insertion, to one that does not.
@@ -124,6 +131,11 @@ void sort_tetrahedra(Tetrahedralization& t, const Threads& threads) {
 } // namespace
 
 Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const std::function<void()>& beside) {
+  return tetrahedralize(std::move(samples), threads, beside, {});
+}
+
+Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const std::function<void()>& beside,
+                                  const WatchGrowth& watch) {
   const int dimension = affine_dimension(samples.positions.raw());
   if (dimension <= 2)
     throw Error(ErrorKind::input, "delaunay", dimension < 2 ? "all points are collinear" : "all points are coplanar",
@@ -142,13 +154,15 @@ Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const
   Delaunay& delaunay = *engine;
   threads.run(beside ? 2 : 1, [&](std::size_t task) {
     if (task == 0)
-      insert_all(delaunay, result.positions, result.sample_count);
+      insert_all(delaunay, result.positions, result.sample_count, watch);
     else
       beside();
   });
   if (delaunay.number_of_vertices() != result.positions.size())
     throw Error(ErrorKind::guarantee, "delaunay", "a sample was lost", "report this as a fault of the program");
+  if (watch) watch(share_of_insertion, delaunay.tds().number_of_cells());
   copy_cells(delaunay, result, threads);
+  if (watch) watch((1 + share_of_insertion) / 2, result.tetrahedra.size());
   engine.reset(); // its half a kilobyte per sample is not needed beside ours
   sort_tetrahedra(result, threads);
   return result;

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tetrahedra/scene.h"
 
+#include <eigencrust/memory_forecast.h>
+
 #include <chrono>
+#include <thread>
+
+#include "tetrahedra/growth.h"
 
 namespace eigencrust {
 namespace {
@@ -12,19 +17,36 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Ends the triangulation when the run is cancelled, or when what grows would take more memory than is allowed. The
+/// observer hears of progress from the caller's thread alone.
+WatchGrowth watch_of(const PointCloud& cloud, const Context& context) {
+  return [cancelled = context.run.cancellation("delaunay"), checkpoint = context.run.checkpoint(),
+          caller = std::this_thread::get_id(), limit = context.options.max_memory,
+          further = further_bytes(cloud)](double fraction, std::uint64_t tetrahedra) {
+    if (std::this_thread::get_id() == caller)
+      checkpoint(fraction);
+    else
+      cancelled();
+    check_memory_of_tetrahedra(tetrahedra, further, limit);
+  };
+}
+
 void triangulate_and_measure(const PointCloud& cloud, Samples samples, const Context& context, Scene& scene) {
   const auto& [options, run, threads] = context;
   SampleMeasures& measures = scene.measures;
   if (threads.size() == 1) {
     run.stage("sample_model", [&] { measures = measure(cloud, samples, options, threads); });
-    scene.tetrahedralization = run.stage("delaunay", [&] { return tetrahedralize(std::move(samples), threads); });
+    scene.tetrahedralization = run.stage(
+        "delaunay", [&] { return tetrahedralize(std::move(samples), threads, {}, watch_of(cloud, context)); });
     return;
   }
   double seconds = 0;
   scene.tetrahedralization = run.stage("delaunay", [&] {
     Samples copy = samples;
-    return tetrahedralize(std::move(copy), threads,
-                          [&] { seconds = seconds_of([&] { measures = measure(cloud, samples, options, threads); }); });
+    return tetrahedralize(
+        std::move(copy), threads,
+        [&] { seconds = seconds_of([&] { measures = measure(cloud, samples, options, threads); }); },
+        watch_of(cloud, context));
   });
   run.add("sample_model", seconds);
 }

@@ -12,10 +12,6 @@
 namespace eigencrust {
 namespace {
 
-// A determinant or a dot product of differences is off by so much of its terms at most: 45 units in the last place,
-// some times what there can be.
-constexpr double rounding = 1e-14;
-
 double largest(const Vec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 
 } // namespace
@@ -38,13 +34,14 @@ SegmentWalk::Corner SegmentWalk::corner(SampleIndex sample) const {
 /// What only corners of faces that the segment leaves through need.
 void SegmentWalk::project(Corner& corner) const {
   corner.along = dot(corner.offset, direction_);
-  const double square = length_ * length_, error = rounding * (corner.size * size_ + square);
+  const double square = length_ * length_, error = half_the_digits * (corner.size * size_ + square);
   corner.before = corner.along + error < square;
 }
 
 SegmentWalk::Turn SegmentWalk::turn(const Corner& p, const Corner& q) const {
   const double value = dot(cross(p.offset, q.offset), direction_);
-  const double bound = rounding * p.size * q.size * size_;
+  // Rounding is a few units in the last place of that product.
+  const double bound = half_the_digits * p.size * q.size * size_;
   // Where products underflow the bound says nothing.
   if (bound > std::sqrt(std::numeric_limits<double>::min()) && std::fabs(value) > bound)
     return {value, value > 0 ? 1 : -1};

@@ -1,17 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash disable=SC2154
-# docs/parameters.md and --help name the same options and defaults.
+# docs/parameters.md and --help-all name the same options and defaults.
 
-# options VERB: `--name|default|default of the preset paper` per line; empty where --help gives none. Defaults
-# stand behind `=`, or as [robust] or [robust; paper: other] at the end.
+# options VERB: `--name|default|default of the preset paper` per line; empty where --help-all gives none. Defaults
+# stand at the end as [robust] or [robust; paper: other].
 options() {
-  "$program" "$1" --help | awk '
+  "$program" "$1" --help-all | awk '
     function flush() { if (name != "") print name "|" standard "|" paper; name = standard = paper = "" }
     /^  -/ {
       flush()
       match($0, /--[a-z][a-z-]*/)
       name = substr($0, RSTART, RLENGTH)
-      if (match($0, /=[^ ]+( |$)/)) { standard = substr($0, RSTART + 1, RLENGTH - 1); sub(/ $/, "", standard) }
     }
     match($0, /\[[^\]]*\]$/) {
       standard = paper = substr($0, RSTART + 1, RLENGTH - 2)
@@ -28,7 +27,7 @@ rows() {
 test_every_option_is_in_the_docs() {
   local page=$repository/docs/parameters.md name standard paper row found
   [ -f "$page" ] || skip "docs/parameters.md is not here"
-  { options reconstruct; options orient; options classify; } | grep -v '^--help' | sort -u >options
+  { options reconstruct; options orient; options outliers; } | grep -v '^--help' | sort -u >options
   rows "$page" >rows
   [ "$(wc -l <options)" -ge 15 ] || die "only $(wc -l <options) options in --help"
   while IFS='|' read -r name standard paper; do
@@ -40,11 +39,49 @@ test_every_option_is_in_the_docs() {
   done <options
 }
 
+# promises PAGE: `promise|test test ...` of the table under the heading; marks are taken off.
+promises() {
+  awk -F ' *[|] *' '/^## / { on = $0 ~ /Which test holds which promise/ }
+    on && /^\|/ && !/^\|-/ && $2 != "promise" { print $2 "|" $3 }' "$1"
+}
+
+# is_there NAME: Suite.Name of GoogleTest, cli.group.case, or a file of the project.
+is_there() {
+  case $1 in
+    cli.*)
+      local group=${1#cli.}
+      grep -qx "test_${group#*.}() {" "$repository/tests/cli/${group%%.*}.sh"
+      ;;
+    */*) [ -f "$repository/$1" ] ;;
+    *.*) grep -rqE "^TEST(_F|_P)?\\(${1%%.*}, ${1#*.}\\)" "$repository/tests" --include='*.cpp' ;;
+    *) return 1 ;;
+  esac
+}
+
+test_every_promise_has_its_test() {
+  local page=$repository/docs/guarantees.md promise tests test count=0
+  promises "$page" >promises
+  [ "$(wc -l <promises)" -ge 30 ] || die "only $(wc -l <promises) promises"
+  while IFS='|' read -r promise tests; do
+    [ -n "$tests" ] || die "'$promise' has no test"
+    # shellcheck disable=SC2001
+    for test in $(echo "$tests" | tr -d '`'); do
+      is_there "$test" || die "'$promise': there is no test $test"
+      count=$((count + 1))
+    done
+  done <promises
+  echo "$count tests of $(wc -l <promises) promises"
+  # The check itself sees what is missing.
+  ! is_there Shells.NoSuchTest && ! is_there cli.faults.no_such_test && ! is_there fuzz/none.cpp || die "is_there() is blind"
+}
+
 # Not only rows: any --word of the page.
 test_every_option_of_the_docs_exists() {
   local page=$repository/docs/parameters.md name verb
   [ -f "$page" ] || skip "docs/parameters.md is not here"
-  for verb in reconstruct orient classify info check compare render demo; do "$program" "$verb" --help; done >help
+  for verb in reconstruct orient outliers info check compare render demo rerun; do
+    "$program" "$verb" --help-all
+  done >help
   for name in $(grep -oE -- '--[a-z][a-z-]*' "$page" | sort -u); do
     grep -qE -- "$name([^a-z-]|\$)" help || die "docs/parameters.md speaks of $name, which no verb knows"
   done

@@ -37,7 +37,7 @@ expect_prompt_end() {
   echo "$1: $begun_after stages began after the signal"
   equal "status after a signal in $1" "$status" 130
   [ "$begun_after" -le 1 ] || die "$begun_after stages began after the signal in $1"
-  grep -qE '^eigencrust: error: .+ \(.+\); .+$' err || die "no message after a signal in $1"
+  grep -qE '^\{"event":"error","text":".+ \(.+\); .+"\}$' err || die "no message after a signal in $1"
   expect_files big.xyz
 }
 

@@ -50,7 +50,50 @@ test_progress_jsonl() {
   lines=$("$probe" lines err) || die "stderr holds lines that are no JSON"
   [ "$lines" -ge 20 ] || die "only $lines lines of progress"
   equal "stages that begin" "$(grep -c '"event":"begin"' err)" "$(grep -c '"event":"end"' err)"
-  grep -q '"stage":"delaunay","event":"begin"' err || die "no Delaunay stage"
+  local stage
+  for stage in reading delaunay writing; do
+    grep -q "\"stage\":\"$stage\",\"event\":\"begin\"" err || die "no stage $stage"
+  done
+  equal "the last line" "$(tail -1 err)" '{"event":"finished","status":0}'
+  sed -n 's/.*"overall":\([0-9.]*\)}/\1/p' err |
+    awk '$1 < last || $1 > 1 { exit 1 } { last = $1 } END { exit last < 0.999 }' || die "the whole does not grow from 0 to 1"
+}
+
+# Nothing else is on that stream: warnings and errors are lines of JSON, too.
+test_progress_jsonl_tells_everything() {
+  sphere 500 1 1e7 >far.xyz
+  expect 0 far.xyz -o far.stl --progress jsonl
+  "$probe" lines err >/dev/null || die "a warning is no JSON"
+  grep -q '^{"event":"warning","text":".' err || die "no warning"
+  expect 3 missing.xyz -o mesh.ply --progress=jsonl
+  "$probe" lines err >/dev/null || die "an error is no JSON"
+  grep -q '^{"event":"error","text":".*missing.xyz' err || die "no error"
+  equal "the last line" "$(tail -1 err)" '{"event":"finished","status":3}'
+  expect 2 far.xyz --progress jsonl --nosie
+  "$probe" lines err >/dev/null || die "what is wrong with the words is no JSON"
+  expect 0 far.xyz -o - --format ply --progress jsonl
+  "$probe" lines err >/dev/null || die "the summary is among the lines of JSON"
+}
+
+test_progress_moves_within_the_triangulation() {
+  sphere 100000 >cloud.xyz
+  expect 0 cloud.xyz -o mesh.ply --progress jsonl --threads 1
+  grep -q '"stage":"delaunay","event":"progress","fraction":0\.' err || die "it stands still on one thread"
+  expect 0 cloud.xyz -o mesh.ply --progress jsonl --threads 2
+  grep -q '"stage":"delaunay","event":"progress","fraction":0\.' err || die "it stands still on two threads"
+}
+
+test_the_bar_fits_any_terminal() {
+  sphere 2000 >cloud.xyz
+  local columns
+  for columns in 1 20 40 60 80 200; do
+    COLUMNS=$columns expect 0 cloud.xyz -o mesh.ply --progress bar
+    tr '\r' '\n' <err | sed 's/\x1b\[K//g' >lines
+    awk -v most="$((columns - 1))" 'length($0) > most { print "longer than", most ":", $0; exit 1 }' lines ||
+      die "a line of the bar is too long"
+    [ "$columns" -lt 20 ] || grep -q 'reading' lines || die "reading is not shown in $columns columns"
+    [ "$columns" -lt 20 ] || grep -q 'writing' lines || die "writing is not shown in $columns columns"
+  done
 }
 
 test_quiet_wins_over_progress() {

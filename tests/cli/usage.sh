@@ -10,16 +10,23 @@ test_no_arguments_prints_the_overview() {
 
 test_help_goes_to_stdout() {
   local verb
-  for verb in reconstruct orient classify info check compare render demo; do
+  for verb in reconstruct orient outliers info check compare render demo rerun completion man; do
     expect 0 "$verb" --help
     grep -q "Usage: eigencrust $verb" out || die "no usage line of $verb"
     [ ! -s err ] || die "help on stderr"
   done
   expect 0 --help
-  for verb in reconstruct orient classify info check compare render demo; do
+  for verb in reconstruct orient outliers info check compare render demo rerun completion man; do
     grep -qE "^  $verb " out || die "$verb is missing in the overview"
   done
-  grep -q -- '--preset' out || die "the options of reconstruct are missing"
+  grep -q -- '--noise' out || die "the options of reconstruct are missing"
+  expect 0 --help-all
+  grep -q -- '--preset' out || die "not all options of reconstruct"
+  expect 0 help render
+  grep -q "Usage: eigencrust render" out || die "help does not take a verb"
+  # The old name still works, but is not listed.
+  expect 0 classify --help
+  grep -q "Usage: eigencrust outliers" out || die "no alias"
 }
 
 test_version() {

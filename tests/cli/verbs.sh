@@ -203,6 +203,35 @@ test_render_shares_one_frame() {
   ! cmp -s both.png own.png || die "the frame is not shared"
 }
 
+test_render_frames_the_bulk() {
+  # One stray point a thousand radii away must not make the ball a dot.
+  sphere 2000 >ball.xyz
+  { cat ball.xyz; echo '1000 0 0'; } >stray.xyz
+  expect 0 render ball.xyz -o ball.png --width 100 --height 100
+  expect 0 render stray.xyz -o bulk.png --width 100 --height 100
+  expect 0 render stray.xyz -o all.png --width 100 --height 100 --frame all
+  local ball bulk all
+  ball=$(wc -c <ball.png) bulk=$(wc -c <bulk.png) all=$(wc -c <all.png)
+  [ $((10 * bulk)) -gt $((9 * ball)) ] || die "the ball is small: $bulk bytes instead of $ball"
+  [ $((3 * all)) -lt "$ball" ] || die "everything was framed, but the ball is large"
+}
+
+test_render_views() {
+  printf 'v 0 0 0\nv 3 0 0\nv 0 2 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n' >a.obj
+  expect 0 render a.obj -o four.png --view front,right --view top --view corner --width 80 --height 60
+  equal width "$(big_endian four.png 16)" 160
+  equal height "$(big_endian four.png 20)" 120
+  expect 0 render a.obj -o three.png --view front,right,top --width 80 --height 60
+  equal width "$(big_endian three.png 16)" 240
+  expect 0 render a.obj a.obj -o rows.png --view front,back --width 80 --height 60
+  equal width "$(big_endian rows.png 16)" 160
+  equal height "$(big_endian rows.png 20)" 120
+  expect 0 render a.obj -o front.png --view front --width 80 --height 60
+  expect 0 render a.obj -o angles.png --azimuth 0 --elevation 0 --width 80 --height 60
+  same front.png angles.png
+  expect_error 2 "is no view" render a.obj -o picture.png --view above
+}
+
 test_render_refuses_sizes() {
   tetrahedron >a.off
   local options

@@ -26,6 +26,10 @@ cd "$work"
 "$work/installed here/bin/eigencrust" check sphere.ply
 "$work/installed here/bin/eigencrust" demo -o demo >demo.log
 "$work/installed here/bin/eigencrust-scan" --help >scan.log
+for file in man/man1/eigencrust.1 bash-completion/completions/eigencrust zsh/site-functions/_eigencrust \
+  fish/vendor_completions.d/eigencrust.fish; do
+  grep -q reconstruct "$work/installed here/share/$file"
+done
 grep -q "installed here/share/eigencrust/examples/teapot_scan.ply" demo.log
 
 # Nothing of the machine it was built on may remain in the package.

@@ -183,8 +183,7 @@ TEST(LineOfSight, RawBunnyWithItsViewsHasNoHandle) {
 }
 
 TEST(LineOfSight, BundledTeapotHasNoFinBehindItsSpout) {
-  const PointCloud cloud =
-      read_point_cloud(std::filesystem::path(EIGENCRUST_SOURCE_DIR) / "examples" / "teapot_scan.ply");
+  const PointCloud cloud = read_point_cloud(source_folder() / "examples" / "teapot_scan.ply");
   ASSERT_FALSE(cloud.sensors.empty());
   const Result result = reconstruct(cloud);
   expect_sound(result);

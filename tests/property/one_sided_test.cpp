@@ -62,8 +62,7 @@ void expect_seen(const Result& result, const PointCloud& cloud) {
   const SampleModel model = sample_model(samples.positions.raw(), std::nullopt, Threads(2));
   std::vector<double> spacing(cloud.points.size(), 0);
   for (std::uint32_t s = 0; s < samples.source.size(); ++s)
-    spacing[samples.source.raw()[s]] =
-        model.isolated[s] > 0 ? model.typical_spacing : static_cast<double>(model.spacing[s]);
+    spacing[samples.source.raw()[s]] = static_cast<double>(model.spacing[s]);
   const auto& attributes = result.mesh.vertex_attributes;
   const auto source =
       std::find_if(attributes.begin(), attributes.end(), [](const Attribute& a) { return a.name == "source_index"; });

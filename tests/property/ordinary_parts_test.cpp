@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "clouds.h"
+#include "source_folder.h"
 
 namespace eigencrust {
 namespace {
@@ -52,6 +53,7 @@ TEST(OrdinaryParts, AShellOfOutliersIsNoBodyAndACoarseBodyIsOne) {
     const MeshSummary mesh = mesh_of(clouds::joined(ball, shell));
     EXPECT_EQ(mesh.components, 1u);
     EXPECT_EQ(mesh.vertices, 20000u);
+    EXPECT_NEAR(mesh.volume, 4 * std::numbers::pi / 3 * 0.125, 0.001); // whatever the space in the shell was taken for
   }
   // Three times as coarse: its samples are lonely, but it is smooth.
   const MeshSummary both = mesh_of(clouds::joined(ball, clouds::moved(clouds::sphere(600, 0.25), {3, 0, 0})));
@@ -170,7 +172,7 @@ TEST(OrdinaryParts, AScrapIsNoSuccess) {
 }
 
 TEST(OrdinaryParts, NothingReachesForTheStrayPointsUnderTheTeapot) {
-  const PointCloud cloud = read_point_cloud(std::filesystem::path(EIGENCRUST_SOURCE_DIR) / "examples/teapot_scan.ply");
+  const PointCloud cloud = read_point_cloud(source_folder() / "examples/teapot_scan.ply");
   const Result result = reconstruct(cloud);
   EXPECT_EQ(result.report.mesh.genus, 1);
   EXPECT_GT(result.report.mesh.bounds.min.z, -0.01); // the teapot stands on z = 0; a stray point at -0.13 was taken in

@@ -15,13 +15,14 @@ using Kind = KeepComponents::Kind;
 /// Three clusters far apart, 300, 80 and 5 points; each cluster's own tetrahedra inside: three pieces.
 struct ThreePieces {
   Prepared p;
+  Labels labels;
   Surface surface;
 
   ThreePieces()
       : p(clouds::prepare(clouds::joined(
             clouds::joined(clouds::moved(clouds::sphere(300), {100, 0, 0}), clouds::moved(clouds::sphere(80), {})),
             {{-99, 0, 0}, {-101, 0, 0}, {-100, 1, 0}, {-100, 0, 1}, {-100, -1, -1}}))) {
-    Labels labels(p.t.tetrahedra.size(), Label::outside);
+    labels = Labels(p.t.tetrahedra.size(), Label::outside);
     for (std::uint32_t i = 0; i < labels.size(); ++i) {
       double longest = 0;
       for (const SampleIndex a : p.t.tetrahedra.raw()[i])
@@ -33,7 +34,7 @@ struct ThreePieces {
     surface.support.assign(surface.mesh.triangles.size(), 1.0f);
   }
   std::vector<DroppedComponent> filter(const KeepComponents& keep) {
-    return filter_components(surface, keep, p.t, {}, Threads(2));
+    return filter_components(surface, keep, p.t, {}, labels, Threads(2));
   }
   [[nodiscard]] MeshSummary summary() const {
     return validate(surface.mesh, {.self_intersections = false, .merge_equal_vertices = false});
@@ -93,7 +94,7 @@ TEST(Components, SupportedKeepsTheLargestHoweverSmall) {
     if (p.t.touches_cube(TetrahedronIndex{i})) labels.raw()[i] = Label::outside;
   Surface surface = extract_surface(p.t, labels, Threads(2));
   surface.support.assign(surface.mesh.triangles.size(), 0.0f);
-  EXPECT_TRUE(filter_components(surface, {Kind::supported, 1}, p.t, {}, Threads(2)).empty());
+  EXPECT_TRUE(filter_components(surface, {Kind::supported, 1}, p.t, {}, labels, Threads(2)).empty());
   EXPECT_EQ(surface.mesh.vertices.size(), 5u);
 }
 
@@ -101,7 +102,9 @@ TEST(Components, OfNothingIsNothing) {
   const Prepared p = clouds::prepare(clouds::random_box(20, 1));
   for (const Kind kind : {Kind::supported, Kind::all, Kind::largest, Kind::count}) {
     Surface surface;
-    EXPECT_TRUE(filter_components(surface, {kind, 1}, p.t, {}, Threads(2)).empty());
+    EXPECT_TRUE(
+        filter_components(surface, {kind, 1}, p.t, {}, Labels(p.t.tetrahedra.size(), Label::outside), Threads(2))
+            .empty());
   }
 }
 

@@ -273,8 +273,10 @@ TEST_F(IoWrite, NamesWithoutAWriter) {
   EXPECT_FALSE(can_write_mesh("a.xyz") || can_write_mesh("ply") || can_write_mesh("a.pts") || can_write_mesh(".ply"));
   EXPECT_TRUE(can_write_point_cloud("a.ply") && can_write_point_cloud("a.csv"));
   EXPECT_FALSE(can_write_point_cloud("a.stl") || can_write_point_cloud("a"));
+  EXPECT_TRUE(can_write_mesh("a", "ply") && can_write_mesh("a.xyz", "OFF") && can_write_point_cloud("a.stl", "las"));
+  EXPECT_FALSE(can_write_mesh("a.ply", "xyz") || can_write_point_cloud("a.ply", "e57"));
   EXPECT_THAT(error_of([&] { write_mesh(folder_ / "a.xyz", {}); }), HasSubstr("no writer"));
-  EXPECT_THAT(error_of([&] { write_point_cloud(folder_ / "a.obj", {}); }), HasSubstr("no writer"));
+  EXPECT_THAT(error_of([&] { write_point_cloud(folder_ / "a.off", {}); }), HasSubstr("no writer"));
 }
 
 TEST_F(IoWrite, UnsoundMeshesAreRefused) {

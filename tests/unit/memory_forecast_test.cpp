@@ -4,6 +4,8 @@
 #include <eigencrust/memory_forecast.h>
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "support.h"
 
 namespace eigencrust {
@@ -12,9 +14,10 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
+/// All of them different.
 PointCloud cloud_of(std::size_t points) {
   PointCloud cloud;
-  cloud.points.resize(points);
+  for (std::size_t i = 0; i < points; ++i) cloud.points.push_back({static_cast<double>(i), 0.5, -1});
   return cloud;
 }
 
@@ -70,6 +73,17 @@ TEST(Forecast, CountsEveryColumnOfACloud) {
   cloud.sensor_of.resize(1000);
   EXPECT_EQ(further_bytes(cloud), 12'000u + 2 * sizeof(Sensor));
   EXPECT_EQ(forecast(cloud).memory_bytes, forecast(1000, further_bytes(cloud)).memory_bytes);
+}
+
+TEST(Forecast, RowsThatAreNoSamplesCountLittle) {
+  const PointCloud once = cloud_of(200'000);
+  PointCloud twice = once, broken = once;
+  twice.points.insert(twice.points.end(), once.points.begin(), once.points.end());
+  broken.points.resize(400'000, {std::nan(""), 0, 0});
+  const auto bytes = [](const PointCloud& cloud) { return static_cast<double>(forecast(cloud).memory_bytes); };
+  EXPECT_NEAR(bytes(twice) / bytes(once), 1.05, 0.02);
+  EXPECT_DOUBLE_EQ(bytes(broken), bytes(twice));
+  EXPECT_NEAR(forecast(twice).seconds / forecast(once).seconds, 1, 1e-9);
 }
 
 TEST(CheckMemory, RefusesAboveTheLimitAlone) {

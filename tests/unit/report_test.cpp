@@ -88,7 +88,7 @@ TEST(Report, HoldsEveryEffectiveOption) {
   EXPECT_THAT(keys(o), testing::UnorderedElementsAre("preset", "eigensolver", "stop_on_stable_signs", "stable_share",
                                                      "tolerance", "max_steps", "second_stage", "grid_spacing",
                                                      "questionable", "global_sign", "noise", "weights", "manifold",
-                                                     "manifold_rule", "components", "smooth", "smoothing",
+                                                     "manifold_rule", "components", "surface", "smooth", "smoothing",
                                                      "outside_points", "inside_points", "facade", "threads",
                                                      "max_memory", "point_results", "crossing_depth", "trim"));
   EXPECT_EQ(o["facade"], "-y");

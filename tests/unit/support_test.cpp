@@ -101,10 +101,11 @@ TEST(Support, DoesNotDependOnThreads) {
 /// Spheres of 300 samples at (100, 0, 0) and of 80 at (0, 0, 0), each filled.
 struct TwoPieces {
   Prepared p = clouds::prepare(clouds::joined(clouds::moved(clouds::sphere(300), {100, 0, 0}), clouds::sphere(80)));
+  Labels labels;
   Surface surface;
 
   TwoPieces() {
-    Labels labels(p.t.tetrahedra.size(), Label::outside);
+    labels = Labels(p.t.tetrahedra.size(), Label::outside);
     for (TetrahedronIndex i{0}; i.value < labels.size(); ++i.value) {
       double longest = 0;
       for (const SampleIndex a : p.t.tetrahedra[i])
@@ -123,7 +124,7 @@ struct TwoPieces {
       if (is_small(i)) surface.support[i] = support;
   }
   std::vector<DroppedComponent> filter(const SampleModel& model = {}) {
-    return filter_components(surface, {Kind::supported, 1}, p.t, model, Threads(2));
+    return filter_components(surface, {Kind::supported, 1}, p.t, model, labels, Threads(2));
   }
 };
 

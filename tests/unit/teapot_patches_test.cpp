@@ -15,9 +15,7 @@
 namespace eigencrust::tools {
 namespace {
 
-BezierPatches teapot() {
-  return read_bezier_patches(std::filesystem::path(EIGENCRUST_SOURCE_DIR) / "examples" / "teapot_patches.txt");
-}
+BezierPatches teapot() { return read_bezier_patches(source_folder() / "examples" / "teapot_patches.txt"); }
 
 /// De Casteljau's scheme: the other way to evaluate.
 Vec3 de_casteljau(std::array<Vec3, 4> p, double t) {

@@ -17,7 +17,7 @@
 namespace eigencrust::tools {
 namespace {
 
-const std::filesystem::path examples = std::filesystem::path(EIGENCRUST_SOURCE_DIR) / "examples";
+const std::filesystem::path examples = source_folder() / "examples";
 
 constexpr double noise = 0.002;
 
