@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/widths.h"
+#include "fit/place_fits.h"
 #include "geometry/mesh_topology.h"
+#include "geometry/nearest.h"
 #include "surface/fans.h"
 
 namespace eigencrust {
@@ -17,15 +18,22 @@ constexpr double least_share_of_piece = 0.1;
 // Tips and edges read as free of noise, for they have no flat neighbourhood; they are about that many edges wide.
 constexpr int edges_around = 10;
 
-// Steps of smoothing before the first fit, and of the normals that it starts from.
+// Steps of smoothing before the first fit, and of the areas around that its normals are summed over.
 constexpr std::uint32_t smoothing_steps = 5;
 constexpr int normal_steps = 10;
-// The sides of the samples and the normals are taken from the fit before; the third still takes 3 % off the error.
-constexpr int fits = 3;
+// The second starts from the places and normals of the first; a third takes off nothing any more.
+constexpr int fit_passes = 2;
+// In widths: fits of places farther away have no say in where a vertex goes.
+constexpr double blend_reach = 1;
+// In units of widths, squared: what is less than that about a fit is no misfit.
+constexpr double least_misfit = 1e-3;
+// Cosine: fits of one side.
+constexpr double same_side = 0.5;
 // Widths are in units of the noise, or of so many spacings where that is more: fewer samples make no fit.
 constexpr double least_unit_in_spacings = 0.7;
-// Nothing moves farther than the bound of the noise and so many spacings.
-constexpr double farthest_in_spacings = 12;
+// Nothing moves farther than the bound of the noise and so many spacings, which are those around or the typical ones of
+// the cloud, whichever is less: where samples are rare none of them is noise.
+constexpr double farthest_in_spacings = 1;
 
 std::vector<std::uint32_t> pieces_of(const Surface& surface) {
   DisjointSets sets(surface.mesh.vertices.size());
@@ -38,29 +46,25 @@ std::vector<std::uint32_t> pieces_of(const Surface& surface) {
   return piece;
 }
 
-void make_unit(std::vector<Vec3>& normals) {
-  for (Vec3& n : normals)
-    if (const double length = norm(n); length > 0) n = (1 / length) * n;
-}
-
-/// Averaged over the vertices around.
+/// From the areas of the triangles around, which are summed over some edges: those of folds cancel.
 std::vector<Vec3> averaged_normals(const TriangleMesh& mesh, const SurfaceFans& fans, const Threads& threads) {
-  std::vector<Vec3> normal(mesh.vertices.size()), next(normal.size());
-  for_each_index(threads, normal.size(), [&](std::size_t v) {
+  std::vector<Vec3> area(mesh.vertices.size()), next(area.size());
+  for_each_index(threads, area.size(), [&](std::size_t v) {
     const Vec3& at = mesh.vertices[v];
     for (const auto& wing : fans[v])
-      normal[v] = normal[v] + cross(mesh.vertices[wing.next] - at, mesh.vertices[wing.last] - at);
+      area[v] = area[v] + cross(mesh.vertices[wing.next] - at, mesh.vertices[wing.last] - at);
   });
-  make_unit(normal);
   for (int step = 0; step < normal_steps; ++step) {
-    for_each_index(threads, normal.size(), [&](std::size_t v) {
-      next[v] = normal[v];
-      for (const auto& wing : fans[v]) next[v] = next[v] + normal[wing.next];
+    for_each_index(threads, area.size(), [&](std::size_t v) {
+      next[v] = area[v];
+      for (const auto& wing : fans[v]) next[v] = next[v] + area[wing.next];
+      next[v] = (1 / static_cast<double>(1 + fans[v].size())) * next[v];
     });
-    normal.swap(next);
-    make_unit(normal);
+    area.swap(next);
   }
-  return normal;
+  for (Vec3& n : area)
+    if (const double length = norm(n); length > 0) n = (1 / length) * n;
+  return area;
 }
 
 Vec3 limited(const Vec3& from, const Vec3& to, double farthest) {
@@ -99,44 +103,139 @@ std::vector<float> noise_at_vertices(const Surface& surface, const SampleModel& 
   return noise;
 }
 
+namespace {
+
+/// The middle of the noise, from fits at places spread over the surface.
+class SurfaceFit {
+ public:
+  SurfaceFit(const Surface& surface, std::span<const Vec3> samples, const SampleModel& model,
+             std::span<const float> noise, const Threads& threads)
+      : surface_(surface), samples_(samples), model_(model), noise_(noise), threads_(threads), fans_(surface.mesh) {
+    TriangleMesh smoothed{surface.mesh.vertices, surface.mesh.triangles, {}, {}};
+    smooth(smoothed, Smoothing::laplacian, smoothing_steps, threads);
+    normal_ = averaged_normals(smoothed, fans_, threads);
+    position_ = std::move(smoothed.vertices);
+    for (std::size_t v = 0; v < position_.size(); ++v)
+      if (noise_[v] < 0) position_[v] = surface.mesh.vertices[v]; // it stays, but says which side its sample is on
+  }
+
+  std::vector<Vec3> run() {
+    ClusterPyramid clusters(fans_, normal_, samples_, vertices_of_samples(), threads_);
+    for (int fit = 0; fit < fit_passes; ++fit) {
+      const FitPlaces places = make_places(clusters);
+      if (fit == 0) width_ = chosen_widths(places, clusters, threads_);
+      move(clusters, fits_of_widths(places, clusters, width_, threads_));
+      if (fit + 1 < fit_passes) clusters.set_normals(normal_);
+    }
+    std::vector<Vec3> result = surface_.mesh.vertices;
+    for (std::size_t v = 0; v < result.size(); ++v)
+      if (noise_[v] >= 0) result[v] = limited(result[v], position_[v], farthest(v));
+    return result;
+  }
+
+ private:
+  [[nodiscard]] double spacing_at(std::size_t v) const {
+    return static_cast<double>(model_.spacing[surface_.sample_of[v].value]);
+  }
+  [[nodiscard]] double noise_at(std::size_t v) const { return std::max(0.0, static_cast<double>(noise_[v])); }
+  [[nodiscard]] double farthest(std::size_t v) const {
+    return static_cast<double>(noise_bound) * noise_at(v) +
+           farthest_in_spacings * std::min(spacing_at(v), model_.typical_spacing);
+  }
+
+  /// Samples are on the side of the vertex next to them; those farther off than noise explains are on none.
+  [[nodiscard]] std::vector<std::uint32_t> vertices_of_samples() const {
+    std::vector<std::uint32_t> vertex_of(samples_.size(), ClusterPyramid::no_vertex);
+    for (std::uint32_t v = 0; v < position_.size(); ++v) vertex_of[surface_.sample_of[v].value] = v;
+    const PointTree tree(position_);
+    for_each_index(
+        threads_, samples_.size(),
+        [&](std::size_t s) {
+          std::uint32_t v = vertex_of[s];
+          if (v == ClusterPyramid::no_vertex) {
+            double square = 0;
+            tree.nearest(samples_[s], 1, &v, &square);
+          }
+          const double beside = std::fabs(dot(samples_[s] - position_[v], normal_[v]));
+          const double far = static_cast<double>(noise_bound) * noise_at(v) + spacing_at(v);
+          vertex_of[s] = beside < far ? v : ClusterPyramid::no_vertex;
+        },
+        costly_block);
+    return vertex_of;
+  }
+
+  [[nodiscard]] FitPlaces make_places(const ClusterPyramid& clusters) const {
+    const ClusterLevel &fine = clusters[0], &level = clusters[FitPlaces::level];
+    const std::size_t n = level.cluster.size();
+    FitPlaces places{std::vector<Vec3>(n),   level.normal,           std::vector<double>(n),
+                     std::vector<double>(n), std::vector<double>(n), std::vector<std::uint8_t>(n, 0)};
+    std::vector<double> count(n, 0);
+    for (std::size_t v = 0; v < position_.size(); ++v) {
+      const std::uint32_t p = fine.parent[v];
+      places.position[p] = places.position[p] + position_[v];
+      places.noise[p] += noise_at(v);
+      places.spacing[p] += spacing_at(v);
+      places.wanted[p] |= noise_[v] >= 0;
+      count[p] += 1;
+    }
+    for (std::size_t p = 0; p < n; ++p) {
+      places.position[p] = (1 / count[p]) * places.position[p];
+      places.noise[p] /= count[p];
+      places.spacing[p] /= count[p];
+      places.unit[p] = std::max(places.noise[p], least_unit_in_spacings * places.spacing[p]);
+    }
+    return places;
+  }
+
+  /// Each vertex onto the mean of the fits around it.
+  void move(const ClusterPyramid& clusters, const std::vector<LocalQuadric>& fits) {
+    const std::vector<std::uint32_t>& place_of = clusters[0].parent;
+    const CompressedRows<std::uint32_t>& neighbours = clusters[FitPlaces::level].neighbours;
+    for_each_index(
+        threads_, position_.size(),
+        [&](std::size_t v) {
+          if (noise_[v] < 0 || !(squared_norm(normal_[v]) > 0)) return;
+          const std::uint32_t own = place_of[v];
+          double offset = 0, total = 0;
+          Vec3 normal;
+          const double unit = std::max(noise_at(v), least_unit_in_spacings * spacing_at(v));
+          const double radius = blend_reach * width_[own] * unit;
+          const auto take = [&](std::uint32_t p) {
+            const LocalQuadric& fit = fits[p];
+            if (!(fit.variance > 0) || !(dot(fit.normal, normal_[v]) > same_side)) return;
+            const double nearness = 1 - squared_norm(fit.origin - position_[v]) / (radius * radius);
+            if (!(nearness > 0)) return;
+            // Fits across an edge fit badly: they leave the word to those beside it.
+            const double misfit = fit.noise_variance + least_misfit * unit * unit;
+            const double w = nearness * nearness / (fit.variance * misfit * misfit);
+            offset += w * fit.offset(position_[v], normal_[v]);
+            normal = normal + w * fit.normal_at(position_[v]);
+            total += w;
+          };
+          take(own);
+          for (const std::uint32_t p : neighbours[own]) take(p);
+          if (!(total > 0)) return;
+          position_[v] = position_[v] + (offset / total) * normal_[v];
+          if (const double length = norm(normal); length > 0) normal_[v] = (1 / length) * normal;
+        },
+        costly_block);
+  }
+
+  const Surface& surface_;
+  std::span<const Vec3> samples_;
+  const SampleModel& model_;
+  std::span<const float> noise_;
+  const Threads& threads_;
+  SurfaceFans fans_;
+  std::vector<Vec3> position_, normal_; ///< of each vertex
+  std::vector<double> width_;           ///< of each place, in its units
+};
+
+} // namespace
+
 std::vector<Vec3> fitted_vertices(const Surface& surface, std::span<const Vec3> samples, const SampleModel& model,
                                   std::span<const float> noise, const Threads& threads) {
-  const std::size_t n = surface.mesh.vertices.size();
-  TriangleMesh smoothed{surface.mesh.vertices, surface.mesh.triangles, {}, {}};
-  smooth(smoothed, Smoothing::laplacian, smoothing_steps, threads);
-  const SurfaceFans fans(smoothed);
-  const PointTree tree(samples);
-  FitPlaces places{samples,
-                   tree,
-                   surface.mesh.vertices,
-                   averaged_normals(smoothed, fans, threads),
-                   std::vector<double>(n),
-                   std::vector<double>(n)};
-  std::vector<double> farthest(n);
-  std::vector<std::uint8_t> moving(n);
-  for (std::size_t v = 0; v < n; ++v) {
-    const std::uint32_t s = surface.sample_of[v].value;
-    const auto spacing = static_cast<double>(model.spacing[s]);
-    moving[v] = noise[v] >= 0;
-    places.noise[v] = std::max(0.0, static_cast<double>(noise[v]));
-    places.unit[v] = std::max(places.noise[v], least_unit_in_spacings * spacing);
-    farthest[v] = static_cast<double>(noise_bound) * places.noise[v] + farthest_in_spacings * spacing;
-    if (moving[v]) places.position[v] = smoothed.vertices[v];
-  }
-  // Vertices that stay say which side the samples are on, but need no fit.
-  std::vector<Vec3> result = surface.mesh.vertices;
-  for (int fit = 0; fit < fits; ++fit) {
-    const std::vector<Foot> feet = fit_with_chosen_widths(places, moving, fans, threads);
-    for_each_index(threads, n, [&](std::size_t v) {
-      if (!moving[v]) return;
-      if (squared_norm(feet[v].normal) > 0) {
-        places.position[v] = places.position[v] + feet[v].offset * places.normal[v];
-        places.normal[v] = feet[v].normal;
-      }
-      if (fit + 1 == fits) result[v] = limited(surface.mesh.vertices[v], places.position[v], farthest[v]);
-    });
-  }
-  return result;
+  return SurfaceFit(surface, samples, model, noise, threads).run();
 }
 
 } // namespace eigencrust

@@ -35,24 +35,31 @@ QuadricFit::QuadricFit(const Vec3& origin, const Vec3& normal, double width) {
   fit_.v = cross(normal, fit_.u);
 }
 
-void QuadricFit::add(const Vec3& sample) {
-  const Vec3 d = sample - fit_.origin;
+void QuadricFit::add(const SampleCluster& samples) {
+  const Vec3 d = samples.mean - fit_.origin;
   const double x = dot(fit_.u, d), y = dot(fit_.v, d), z = dot(fit_.normal, d);
   const double nearness = 1 - x * x - y * y;
-  if (!(nearness > 0)) return;
-  const double w = nearness * nearness;
-  const std::array<double, unknowns> b{1, x, y, x * x, x * y, y * y};
+  if (!(nearness > 0) || !(samples.count > 0)) return;
+  const double w = samples.count * nearness * nearness;
+  std::array<double, unknowns> b{1, x, y, x * x, x * y, y * y};
+  double square = z * z;
+  if (samples.count > 1) {
+    b[3] += samples.covariance(fit_.u, fit_.u);
+    b[4] += samples.covariance(fit_.u, fit_.v);
+    b[5] += samples.covariance(fit_.v, fit_.v);
+    square += samples.covariance(fit_.normal, fit_.normal);
+  }
   std::size_t k = 0;
   for (std::size_t i = 0; i < unknowns; ++i) {
     const double wb = w * b[i];
     for (std::size_t j = 0; j <= i; ++j) moments_[k++] += wb * b[j];
     right_[i] += wb * z;
   }
-  squares_ += w * z * z;
-  weight_squares_ += w * w;
+  squares_ += w * square;
+  weight_squares_ += w * nearness * nearness;
 }
 
-std::optional<LocalQuadric> QuadricFit::solve() const {
+std::optional<LocalQuadric> QuadricFit::solve(double most_noise) const {
   using Matrix = Eigen::Matrix<double, unknowns, unknowns>;
   using Vector = Eigen::Matrix<double, unknowns, 1>;
   // As many as there are unknowns, and some that say how well they fit.
@@ -73,7 +80,7 @@ std::optional<LocalQuadric> QuadricFit::solve() const {
   const double share = weight_squares_ / total;
   const double freedom = total - static_cast<double>(unknowns) * share;
   fit.noise_variance = freedom > 0 ? std::max(0.0, squares_ - height.dot(right)) / freedom : 0;
-  const double bend = fit.noise_variance * squared_norm(fit.u);
+  const double bend = std::min(fit.noise_variance, most_noise * most_noise) * squared_norm(fit.u);
   fit.sag = bend * (height[3] + height[5]);
   Vector functional = Vector::Zero();
   functional[0] = 1;

@@ -4,9 +4,12 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 
 #include <eigencrust/types.h>
+
+#include "fit/sample_clusters.h"
 
 namespace eigencrust {
 
@@ -36,10 +39,11 @@ class QuadricFit {
   /// \param normal unit; \param width > 0, where the samples' weights end
   QuadricFit(const Vec3& origin, const Vec3& normal, double width);
 
-  /// Weighs it (1 - (r / width)²)², r being its distance from the origin along the tangent plane.
-  void add(const Vec3& sample);
+  /// Weighs each of the samples (1 - (r / width)²)², r being their distance from the origin along the tangent plane.
+  void add(const SampleCluster& samples);
   /// None where the samples do not determine a quadric and its noise.
-  [[nodiscard]] std::optional<LocalQuadric> solve() const;
+  /// \param most_noise what is more about the fit is shape; infinite: nothing is known
+  [[nodiscard]] std::optional<LocalQuadric> solve(double most_noise = std::numeric_limits<double>::infinity()) const;
 
  private:
   static constexpr std::size_t unknowns = 6;

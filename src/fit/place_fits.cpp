@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/place_fits.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "samples/place_model.h"
+
+namespace eigencrust {
+namespace {
+
+// In units of the larger of σ and 0.7 spacings; each has twice the samples of the one before.
+constexpr std::array<double, 7> widths{2.83, 4, 5.66, 8, 11.3, 16, 22.6};
+// Cosine: samples of one side.
+constexpr double same_side = 0.5;
+// Up to so many times the noise that the model knows of is noise; what is more about a narrow fit is shape.
+constexpr double over_model = 1.2;
+// Clusters are as coarse as leaves so many of them in a fit: some in those that are compared, more in the last.
+constexpr double enough_to_choose = 40, enough_to_fit = 100;
+// What the means over few places leave of the bias counts so much: more leaves noise in, less rounds off what is sharp.
+constexpr double bias_counts = 0.6;
+// A width whose risk is so many times that of another is the last one looked at.
+constexpr double hopeless = 3;
+// Rounds in which the choice is averaged over the neighbours: a single one hangs on the noise at its place.
+constexpr int averaging_rounds = 2;
+// Places are looked at in blocks, each with a memory of its own.
+constexpr std::size_t places_per_block = 512;
+
+/// Clusters around a place, found along the surface.
+class Neighbourhood {
+ public:
+  Neighbourhood() : slot_(slots) {}
+
+  /// From `start` on, which is always one of them. \return valid until the next call
+  const std::vector<std::uint32_t>& find(const ClusterLevel& level, std::uint32_t start, const Vec3& origin,
+                                         const Vec3& normal, double radius) {
+    ++round_;
+    found_.clear();
+    is_new(start);
+    found_.push_back(start);
+    seen_ = 1;
+    for (std::size_t i = 0; i < found_.size(); ++i)
+      for (const std::uint32_t c : level.neighbours[found_[i]]) {
+        if (seen_ >= most || !is_new(c)) continue;
+        ++seen_;
+        if (dot(level.normal[c], normal) > same_side && squared_norm(level.cluster[c].mean - origin) < radius * radius)
+          found_.push_back(c);
+      }
+    return found_;
+  }
+
+ private:
+  static constexpr std::size_t slots = 4096, most = 1500; // a bound on the work
+
+  bool is_new(std::uint32_t c) {
+    constexpr std::uint32_t golden = 2654435769U; // Knuth 1973, 6.4
+    for (std::size_t at = (c * golden) >> 20;; at = (at + 1) % slots) {
+      if (slot_[at].round != round_) {
+        slot_[at] = {round_, c};
+        return true;
+      }
+      if (slot_[at].item == c) return false;
+    }
+  }
+
+  struct Slot {
+    std::uint32_t round = 0, item = 0;
+  };
+  std::vector<Slot> slot_;
+  std::vector<std::uint32_t> found_;
+  std::uint32_t round_ = 0;
+  std::size_t seen_ = 0;
+};
+
+class PlaceFitter {
+ public:
+  PlaceFitter(const FitPlaces& places, const ClusterPyramid& samples, double enough)
+      : places_(places), samples_(samples), enough_(enough) {}
+
+  std::optional<LocalQuadric> fit(std::size_t p, double width) {
+    const Vec3 &origin = places_.position[p], &normal = places_.normal[p];
+    const double radius = width * places_.unit[p];
+    const std::size_t l = level_for(radius / places_.spacing[p]);
+    // Where the width ends samples are still as thick as in the middle.
+    const double reach = std::hypot(radius, static_cast<double>(noise_bound) * places_.noise[p]);
+    const auto& clusters = around_.find(samples_[l], cluster_of(p, l), origin, normal, reach);
+    QuadricFit fit(origin, normal, radius);
+    for (const std::uint32_t c : clusters) fit.add(samples_[l].cluster[c]);
+    return fit.solve(most_noise(p));
+  }
+
+  /// The narrowest fit knows the noise best, but where the shape is as fine it takes that for noise, too.
+  [[nodiscard]] double most_noise(std::size_t p) const {
+    return places_.noise[p] > 0 ? over_model * places_.noise[p] : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  [[nodiscard]] std::size_t level_for(double radius_in_spacings) const {
+    double clusters = std::numbers::pi * radius_in_spacings * radius_in_spacings / 4;
+    std::size_t l = 0;
+    for (; clusters > enough_ && l + 1 < samples_.levels(); clusters /= 4) ++l;
+    return l;
+  }
+  [[nodiscard]] std::uint32_t cluster_of(std::size_t p, std::size_t level) const {
+    if (level < FitPlaces::level) return samples_[FitPlaces::level].seed[p];
+    auto c = static_cast<std::uint32_t>(p);
+    for (std::size_t l = FitPlaces::level; l < level; ++l) c = samples_[l].parent[c];
+    return c;
+  }
+
+  const FitPlaces& places_;
+  const ClusterPyramid& samples_;
+  double enough_;
+  Neighbourhood around_;
+};
+
+/// The width of least risk, which is the square of the bias and the variance together. Fits twice as wide have a bias
+/// 16 times as large (quadrics miss terms of the fourth order), so that the difference of two fits shows the bias of
+/// the wider one; what noise explains of it is taken off. Single differences say little, their means over the places
+/// around a good deal.
+class WidthChoice {
+ public:
+  WidthChoice(const FitPlaces& places, const ClusterPyramid& samples, const Threads& threads)
+      : places_(places),
+        samples_(samples),
+        threads_(threads),
+        running_(places.wanted),
+        noise_(places.position.size(), 0),
+        bias_(noise_.size(), 0),
+        choice_(noise_.size(), -1) {
+    for (std::size_t p = 0; p < running_.size(); ++p) running_[p] &= squared_norm(places.normal[p]) > 0;
+  }
+
+  std::vector<double> run() {
+    for (std::size_t k = 0; k < widths.size(); ++k) {
+      levels_.push_back(fit(k));
+      if (k == 0) find_noise();
+      weigh(k);
+    }
+    for (std::size_t p = 0; p < choice_.size(); ++p) choice_[p] = least(p);
+    for (int round = 0; round < averaging_rounds; ++round) choice_ = pooled(choice_);
+    for (double& c : choice_) c = c < 0 ? 0 : widths[0] * std::exp2(c / 2);
+    return std::move(choice_);
+  }
+
+ private:
+  static constexpr float none = -1;
+  struct Level {
+    std::vector<float> offset, variance; ///< variance in units of a sample's; 0: no fit
+    std::vector<float> risk;
+  };
+
+  Level fit(std::size_t k) {
+    const std::size_t n = running_.size();
+    Level level{std::vector<float>(n, 0), std::vector<float>(n, 0), std::vector<float>(n, none)};
+    for_blocks(threads_, n, places_per_block, [&](std::size_t begin, std::size_t end, std::size_t) {
+      PlaceFitter fitter(places_, samples_, enough_to_choose);
+      for (std::size_t p = begin; p < end; ++p) {
+        if (!running_[p]) continue;
+        const auto found = fitter.fit(p, widths[k]);
+        if (!found) continue;
+        level.offset[p] = static_cast<float>(found->offset(places_.position[p], places_.normal[p]));
+        level.variance[p] = static_cast<float>(found->variance);
+        if (noise_[p] == 0) noise_[p] = found->noise_variance;
+      }
+    });
+    return level;
+  }
+
+  /// The narrowest fits know the noise best, but where the shape is as fine they take that for noise, too.
+  void find_noise() {
+    const std::vector<double> mean = pooled(noise_);
+    for (std::size_t p = 0; p < mean.size(); ++p) {
+      const double most =
+          places_.noise[p] > 0 ? over_model * places_.noise[p] : std::numeric_limits<double>::infinity();
+      noise_[p] = std::min(mean[p] > 0 ? mean[p] : noise_[p], most * most);
+    }
+  }
+
+  void weigh(std::size_t k) {
+    const std::size_t j = k < 2 ? 0 : k - 2;
+    const double less_biased = std::pow(widths[j] / widths[k], 4);
+    const auto& [offset, variance, unused] = levels_[k];
+    std::vector<double> apart(offset.size(), -1), explained(offset.size(), -1);
+    for (std::size_t p = 0; p < offset.size(); ++p) {
+      if (variance[p] == 0 || levels_[j].variance[p] == 0) continue;
+      apart[p] = std::fabs(static_cast<double>(offset[p] - levels_[j].offset[p]));
+      explained[p] = noise_[p] * std::max(0.0, static_cast<double>(levels_[j].variance[p] - variance[p]));
+    }
+    if (k > 0) {
+      apart = pooled(apart);
+      explained = pooled(explained);
+    }
+    for (std::size_t p = 0; p < offset.size(); ++p) {
+      if (!running_[p] || variance[p] == 0) continue;
+      if (k > 0 && apart[p] >= 0) {
+        // Of normal deviates the mean square is pi / 2 of the squared mean; that is surer where some are wild.
+        const double square = std::numbers::pi / 2 * apart[p] * apart[p] - explained[p];
+        bias_[p] = std::max(bias_[p], square / ((1 - less_biased) * (1 - less_biased)));
+      }
+      levels_[k].risk[p] = static_cast<float>(bias_counts * bias_[p] + noise_[p] * static_cast<double>(variance[p]));
+      double best = std::numeric_limits<double>::infinity();
+      for (const Level& level : levels_)
+        if (level.risk[p] >= 0) best = std::min(best, static_cast<double>(level.risk[p]));
+      running_[p] = static_cast<double>(levels_[k].risk[p]) < hopeless * best;
+    }
+  }
+
+  /// Means over the places and their neighbours on the same side of what is not negative; -1: nothing.
+  [[nodiscard]] std::vector<double> pooled(const std::vector<double>& value) const {
+    std::vector<double> result(value.size());
+    for_each_index(threads_, value.size(), [&](std::size_t p) {
+      double sum = 0, count = 0;
+      for_same_side(p, [&](std::size_t q) {
+        if (value[q] < 0) return;
+        sum += value[q];
+        count += 1;
+      });
+      result[p] = count > 0 ? sum / count : -1;
+    });
+    return result;
+  }
+
+  /// The place itself counts twice among its neighbours.
+  template <class Visit>
+  void for_same_side(std::size_t p, Visit&& visit) const {
+    visit(p);
+    visit(p);
+    for (const std::uint32_t q : samples_[FitPlaces::level].neighbours[p])
+      if (dot(places_.normal[q], places_.normal[p]) > same_side) visit(q);
+  }
+
+  /// The level of least risk, between levels by the parabola through three; negative: none.
+  [[nodiscard]] double least(std::size_t p) const {
+    std::size_t best = widths.size();
+    const auto risk = [&](std::size_t k) { return static_cast<double>(levels_[k].risk[p]); };
+    for (std::size_t k = 0; k < widths.size(); ++k)
+      if (risk(k) >= 0 && (best == widths.size() || risk(k) < risk(best))) best = k;
+    if (best == widths.size()) return -1;
+    const auto at = static_cast<double>(best);
+    if (best == 0 || best + 1 == widths.size() || risk(best - 1) < 0 || risk(best + 1) < 0) return at;
+    const double bend = risk(best - 1) - 2 * risk(best) + risk(best + 1);
+    return bend > 0 ? at + 0.5 * (risk(best - 1) - risk(best + 1)) / bend : at;
+  }
+
+  const FitPlaces& places_;
+  const ClusterPyramid& samples_;
+  const Threads& threads_;
+  std::vector<std::uint8_t> running_; ///< places whose risk may still fall
+  std::vector<double> noise_;         ///< variance
+  std::vector<double> bias_;          ///< square, of the level before or of narrower ones
+  std::vector<double> choice_;
+  std::vector<Level> levels_;
+};
+
+} // namespace
+
+std::vector<double> chosen_widths(const FitPlaces& places, const ClusterPyramid& samples, const Threads& threads) {
+  return WidthChoice(places, samples, threads).run();
+}
+
+std::vector<LocalQuadric> fits_of_widths(const FitPlaces& places, const ClusterPyramid& samples,
+                                         const std::vector<double>& width, const Threads& threads) {
+  std::vector<LocalQuadric> fits(places.position.size());
+  for_blocks(threads, fits.size(), places_per_block, [&](std::size_t begin, std::size_t end, std::size_t) {
+    PlaceFitter fitter(places, samples, enough_to_fit);
+    for (std::size_t p = begin; p < end; ++p) {
+      if (!(width[p] > 0) || !(squared_norm(places.normal[p]) > 0)) continue;
+      std::optional<LocalQuadric> fit;
+      for (double w = width[p]; !fit && w < 2 * widths.back(); w *= 2) fit = fitter.fit(p, w);
+      if (fit) fits[p] = *fit;
+    }
+  });
+  return fits;
+}
+
+} // namespace eigencrust

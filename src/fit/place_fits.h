@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Fits at places spread over the surface, each as wide as the noise asks for and the shape allows.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fit/local_quadric.h"
+#include "fit/sample_clusters.h"
+#include "parallel/threads.h"
+
+namespace eigencrust {
+
+/// Where quadrics are fitted: one place for each cluster of the pyramid's level 1.
+struct FitPlaces {
+  static constexpr std::size_t level = 1;
+  std::vector<Vec3> position, normal; ///< normal: unit, or 0: no fit
+  std::vector<double> unit;           ///< widths are so many times this length
+  std::vector<double> noise;          ///< standard deviation; 0: unknown
+  std::vector<double> spacing;        ///< of the samples
+  std::vector<std::uint8_t> wanted;   ///< places that need a fit
+};
+
+/// For each wanted place the width, in its units, that suits it: fits grow as long as they agree, until one whose
+/// interval of confidence has nothing in common with those before (Goldenshluger and Nemirovski 1997; Katkovnik 1999).
+/// The choice is then averaged over the places around, for a single one hangs on the noise. 0: no fit is possible.
+std::vector<double> chosen_widths(const FitPlaces& places, const ClusterPyramid& samples, const Threads& threads);
+
+/// Fits of these widths. Samples of other sides do not count: clusters whose normal is more than 60° off, and those
+/// that are not reached along the surface. variance = 0: there is none.
+std::vector<LocalQuadric> fits_of_widths(const FitPlaces& places, const ClusterPyramid& samples,
+                                         const std::vector<double>& width, const Threads& threads);
+
+} // namespace eigencrust
