@@ -2,6 +2,7 @@
 #include "fit/fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "fit/place_fits.h"
@@ -22,7 +23,7 @@ constexpr int edges_around = 10;
 constexpr std::uint32_t smoothing_steps = 5;
 constexpr int normal_steps = 10;
 // The second starts from the places and normals of the first; a third takes off nothing any more.
-constexpr int fit_passes = 2;
+constexpr std::array<double, 2> clusters_in_fit{25, 100};
 // In widths: fits of places farther away have no say in where a vertex goes.
 constexpr double blend_reach = 1;
 // In units of widths, squared: what is less than that about a fit is no misfit.
@@ -121,11 +122,11 @@ class SurfaceFit {
 
   std::vector<Vec3> run() {
     ClusterPyramid clusters(fans_, normal_, samples_, vertices_of_samples(), threads_);
-    for (int fit = 0; fit < fit_passes; ++fit) {
+    for (std::size_t fit = 0; fit < clusters_in_fit.size(); ++fit) {
       const FitPlaces places = make_places(clusters);
       if (fit == 0) width_ = chosen_widths(places, clusters, threads_);
-      move(clusters, fits_of_widths(places, clusters, width_, threads_));
-      if (fit + 1 < fit_passes) clusters.set_normals(normal_);
+      move(clusters, fits_of_widths(places, clusters, width_, clusters_in_fit.at(fit), threads_));
+      if (fit + 1 < clusters_in_fit.size()) clusters.set_normals(normal_);
     }
     std::vector<Vec3> result = surface_.mesh.vertices;
     for (std::size_t v = 0; v < result.size(); ++v)

@@ -19,12 +19,15 @@ constexpr std::array<double, 7> widths{2.83, 4, 5.66, 8, 11.3, 16, 22.6};
 constexpr double same_side = 0.5;
 // Up to so many times the noise that the model knows of is noise; what is more about a narrow fit is shape.
 constexpr double over_model = 1.2;
-// Clusters are as coarse as leaves so many of them in a fit: some in those that are compared, more in the last.
-constexpr double enough_to_choose = 40, enough_to_fit = 100;
+// Clusters are as coarse as leaves so many of them in a fit that is compared with others.
+constexpr double enough_to_choose = 25;
 // What the means over few places leave of the bias counts so much: more leaves noise in, less rounds off what is sharp.
 constexpr double bias_counts = 0.6;
 // A width whose risk is so many times that of another is the last one looked at.
 constexpr double hopeless = 3;
+// In noise of less than so many spacings every third place is looked at; in more each counts.
+constexpr double little_noise = 0.6;
+constexpr std::size_t in_little_noise = 3;
 // Rounds in which the choice is averaged over the neighbours: a single one hangs on the noise at its place.
 constexpr int averaging_rounds = 2;
 // Places are looked at in blocks, each with a memory of its own.
@@ -132,7 +135,9 @@ class WidthChoice {
         noise_(places.position.size(), 0),
         bias_(noise_.size(), 0),
         choice_(noise_.size(), -1) {
-    for (std::size_t p = 0; p < running_.size(); ++p) running_[p] &= squared_norm(places.normal[p]) > 0;
+    for (std::size_t p = 0; p < running_.size(); ++p)
+      running_[p] &= squared_norm(places.normal[p]) > 0 &&
+                     (p % in_little_noise == 0 || places.noise[p] > little_noise * places.spacing[p]);
   }
 
   std::vector<double> run() {
@@ -264,10 +269,10 @@ std::vector<double> chosen_widths(const FitPlaces& places, const ClusterPyramid&
 }
 
 std::vector<LocalQuadric> fits_of_widths(const FitPlaces& places, const ClusterPyramid& samples,
-                                         const std::vector<double>& width, const Threads& threads) {
+                                         const std::vector<double>& width, double clusters, const Threads& threads) {
   std::vector<LocalQuadric> fits(places.position.size());
   for_blocks(threads, fits.size(), places_per_block, [&](std::size_t begin, std::size_t end, std::size_t) {
-    PlaceFitter fitter(places, samples, enough_to_fit);
+    PlaceFitter fitter(places, samples, clusters);
     for (std::size_t p = begin; p < end; ++p) {
       if (!(width[p] > 0) || !(squared_norm(places.normal[p]) > 0)) continue;
       std::optional<LocalQuadric> fit;

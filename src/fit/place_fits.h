@@ -30,6 +30,6 @@ std::vector<double> chosen_widths(const FitPlaces& places, const ClusterPyramid&
 /// Fits of these widths. Samples of other sides do not count: clusters whose normal is more than 60° off, and those
 /// that are not reached along the surface. variance = 0: there is none.
 std::vector<LocalQuadric> fits_of_widths(const FitPlaces& places, const ClusterPyramid& samples,
-                                         const std::vector<double>& width, const Threads& threads);
+                                         const std::vector<double>& width, double clusters, const Threads& threads);
 
 } // namespace eigencrust

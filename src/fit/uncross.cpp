@@ -109,9 +109,7 @@ class Uncrossing {
   }
 
   [[nodiscard]] double rounded(double x) const {
-    // Volatile: g++ 12 at -O2 otherwise keeps the value before the rounding.
-    const volatile float nearest = static_cast<float>(x);
-    const double result = static_cast<double>(nearest);
+    const auto result = static_cast<double>(static_cast<float>(x));
     return std::fabs(result - x) < tolerance_ ? result : x;
   }
   [[nodiscard]] Vec3 rounded(const Vec3& p) const { return {rounded(p.x), rounded(p.y), rounded(p.z)}; }

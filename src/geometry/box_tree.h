@@ -10,6 +10,8 @@
 
 #include <eigencrust/types.h>
 
+#include "parallel/threads.h"
+
 namespace eigencrust {
 
 /// Binary tree of boxes, split at the median along the longest axis. Queries only read.
@@ -26,7 +28,7 @@ class BoxTree {
 
   BoxTree() = default;
   /// \param boxes finite, at least one
-  explicit BoxTree(std::span<const Box3> boxes);
+  BoxTree(std::span<const Box3> boxes, const Threads& threads);
 
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
   /// Item numbers in the order of the leaves.
@@ -58,7 +60,7 @@ class BoxTree {
   }
 
  private:
-  void build(std::span<const Box3> boxes, std::span<const Vec3> centres, std::uint32_t begin, std::uint32_t end);
+  class Builder;
 
   std::vector<Node> nodes_; ///< preorder; node 0 is the root
   std::vector<std::uint32_t> order_;

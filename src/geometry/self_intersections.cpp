@@ -78,13 +78,13 @@ namespace {
 class CrossingSearch {
  public:
   CrossingSearch(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
-                 std::span<const std::uint8_t> degenerate, std::span<const std::uint8_t> asked)
+                 std::span<const std::uint8_t> degenerate, std::span<const std::uint8_t> asked, const Threads& threads)
       : vertices_(vertices), triangles_(triangles), degenerate_(degenerate), asked_(asked) {
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
       if (degenerate[t] == 0 && is_asked(t)) number_.push_back(t);
     boxes_.reserve(number_.size());
     for (const std::uint32_t t : number_) boxes_.push_back(box_of(t));
-    if (!boxes_.empty()) tree_ = BoxTree(boxes_);
+    if (!boxes_.empty()) tree_ = BoxTree(boxes_, threads);
   }
 
   /// visit(block, f, g) for each pair once, on the thread of the block; blocks go through the triangles in order.
@@ -147,7 +147,7 @@ class CrossingSearch {
 
 std::uint64_t count_self_intersections(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                                        std::span<const std::uint8_t> degenerate, const Threads& threads) {
-  const CrossingSearch search(vertices, triangles, degenerate, {});
+  const CrossingSearch search(vertices, triangles, degenerate, {}, threads);
   std::vector<std::uint64_t> pairs(search.blocks(), 0);
   search.run(threads, [&](std::size_t block, std::uint32_t, std::uint32_t) { ++pairs[block]; });
   return std::accumulate(pairs.begin(), pairs.end(), std::uint64_t{0});
@@ -158,7 +158,7 @@ std::vector<std::array<std::uint32_t, 2>> find_self_intersections(std::span<cons
                                                                   std::span<const std::uint8_t> degenerate,
                                                                   std::span<const std::uint8_t> asked,
                                                                   const Threads& threads) {
-  const CrossingSearch search(vertices, triangles, degenerate, asked);
+  const CrossingSearch search(vertices, triangles, degenerate, asked, threads);
   std::vector<std::vector<std::array<std::uint32_t, 2>>> pairs(search.blocks());
   search.run(threads, [&](std::size_t block, std::uint32_t f, std::uint32_t g) { pairs[block].push_back({f, g}); });
   std::vector<std::array<std::uint32_t, 2>> all;

@@ -51,7 +51,7 @@ TEST(LocalQuadric, FindsAQuadricAndItsNormalInAnyFrame) {
   };
   QuadricFit fit(origin, normal, 1);
   for (int i = -9; i <= 9; ++i)
-    for (int j = -9; j <= 9; ++j) fit.add(surface(0.1 * i, 0.1 * j));
+    for (int j = -9; j <= 9; ++j) fit.add({surface(0.1 * i, 0.1 * j), {}, 1});
   const auto found = fit.solve();
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->noise_variance, 0, 1e-8);
@@ -66,10 +66,10 @@ TEST(LocalQuadric, FindsAQuadricAndItsNormalInAnyFrame) {
 
 TEST(LocalQuadric, TooFewSamplesOrSamplesInARowMakeNoFitOrAHarmlessOne) {
   QuadricFit few({}, {0, 0, 1}, 1);
-  for (int i = 0; i < 9; ++i) few.add({0.3 * std::cos(i), 0.3 * std::sin(i), 0});
+  for (int i = 0; i < 9; ++i) few.add({{0.3 * std::cos(i), 0.3 * std::sin(i), 0}, {}, 1});
   EXPECT_FALSE(few.solve());
   QuadricFit row({}, {0, 0, 1}, 1);
-  for (int i = -50; i <= 50; ++i) row.add({0.01 * i, 0, 0.1});
+  for (int i = -50; i <= 50; ++i) row.add({{0.01 * i, 0, 0.1}, {}, 1});
   if (const auto fit = row.solve()) {
     EXPECT_NEAR(fit->offset({}, {0, 0, 1}), 0.1, 1e-3);
   }
@@ -81,7 +81,7 @@ TEST(LocalQuadric, NoiseInAllDirectionsSagsOnASphereAndThatIsAllowedFor) {
   QuadricFit fit({0, 0, 1}, {0, 0, 1}, 0.4);
   const Points cap = noisy(clouds::sphere(1'000'000), sigma, 5);
   for (const Vec3& p : cap)
-    if (p.z > 0.5) fit.add(p);
+    if (p.z > 0.5) fit.add({p, {}, 1});
   const auto found = fit.solve();
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->noise_variance, sigma * sigma, 0.06 * sigma * sigma);
