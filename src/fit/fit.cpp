@@ -73,8 +73,6 @@ Vec3 limited(const Vec3& from, const Vec3& to, double farthest) {
   return length > farthest ? from + (farthest / length) * (to - from) : to;
 }
 
-} // namespace
-
 std::vector<float> noise_at_vertices(const Surface& surface, const SampleModel& model, const Threads& threads) {
   const std::size_t n = surface.mesh.vertices.size();
   std::vector<float> noise(n, 0);
@@ -103,8 +101,6 @@ std::vector<float> noise_at_vertices(const Surface& surface, const SampleModel& 
   }
   return noise;
 }
-
-namespace {
 
 /// The middle of the noise, from fits at places spread over the surface.
 class SurfaceFit {
@@ -233,6 +229,17 @@ class SurfaceFit {
 };
 
 } // namespace
+
+std::vector<float> noise_to_fit(const Surface& surface, const SampleModel& model, SurfaceKind kind,
+                                const Threads& threads) {
+  if (kind == SurfaceKind::samples) return {};
+  std::vector<float> noise = noise_at_vertices(surface, model, threads);
+  if (kind == SurfaceKind::fitted) return noise;
+  if (std::none_of(noise.begin(), noise.end(), [](float sigma) { return sigma > 0; })) return {};
+  for (float& sigma : noise)
+    if (sigma == 0) sigma = -1;
+  return noise;
+}
 
 std::vector<Vec3> fitted_vertices(const Surface& surface, std::span<const Vec3> samples, const SampleModel& model,
                                   std::span<const float> noise, const Threads& threads) {

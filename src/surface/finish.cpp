@@ -24,15 +24,10 @@ bool is_exact_translation(const Tetrahedralization& t, const PointCloud& cloud, 
 /// Moves vertices to the middle of the noise. \return whether any moved
 bool fit(Surface& surface, const Scene& scene, const Context& context) {
   const auto& [options, run, threads] = context;
-  if (options.surface == SurfaceKind::samples) return false;
   const Tetrahedralization& t = scene.tetrahedralization;
   const SampleModel& model = scene.measures.model;
-  std::vector<float> noise = noise_at_vertices(surface, model, threads);
-  if (options.surface == SurfaceKind::automatic) {
-    if (std::none_of(noise.begin(), noise.end(), [](float sigma) { return sigma > 0; })) return false;
-    for (float& sigma : noise)
-      if (sigma == 0) sigma = -1;
-  }
+  const std::vector<float> noise = noise_to_fit(surface, model, options.surface, threads);
+  if (noise.empty()) return false;
   run.stage("fit", [&] {
     const auto samples = std::span(t.positions.raw()).first(t.sample_count);
     surface.mesh.vertices = fitted_vertices(surface, samples, model, noise, threads);
