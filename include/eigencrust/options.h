@@ -118,7 +118,7 @@ struct Options {
   ManifoldRule manifold_rule = ManifoldRule::cheapest;
   KeepComponents components;
   /// Whether vertices move to the middle of the noise (not in the paper).
-  SurfaceKind surface = SurfaceKind::automatic;
+  SurfaceKind surface = SurfaceKind::samples;
   /// Smoothing steps (§3.6); 0: none. Vertices then leave the samples.
   std::uint32_t smooth = 0;
   Smoothing smoothing = Smoothing::laplacian;

@@ -16,13 +16,15 @@ namespace {
 constexpr std::uint8_t easing_steps = 4;
 // Then half way, a quarter of the way, and all the way back.
 constexpr std::uint8_t steps_back = 3;
+// Rounding may move a vertex by so small a share of the spacing: what the writer of files allows, too.
+constexpr double shares = 1000;
 
 class Uncrossing {
  public:
-  Uncrossing(std::span<const Vec3> before, double tolerance, TriangleMesh& mesh, const Threads& threads)
+  Uncrossing(std::span<const Vec3> before, double spacing, TriangleMesh& mesh, const Threads& threads)
       : before_(before),
         fitted_(mesh.vertices),
-        tolerance_(tolerance),
+        spacing_(spacing),
         mesh_(mesh),
         fans_(mesh),
         threads_(threads),
@@ -93,7 +95,9 @@ class Uncrossing {
     if (step <= easing_steps && !rim_[v]) {
       Vec3 sum;
       for (const auto& wing : fans_[v]) sum = sum + (mesh_.vertices[wing.next] - before_[v]);
-      return rounded(before_[v] + (1.0 / static_cast<double>(fans_[v].size())) * sum);
+      const Vec3 way = (1.0 / static_cast<double>(fans_[v].size())) * sum;
+      const double length = norm(way), most = std::max(distance(fitted_[v], before_[v]), spacing_);
+      return rounded(before_[v] + std::min(1.0, most / length) * way);
     }
     if (step >= easing_steps + steps_back) return before_[v];
     const double share = std::ldexp(1.0, -std::max(1, step - easing_steps));
@@ -110,13 +114,13 @@ class Uncrossing {
 
   [[nodiscard]] double rounded(double x) const {
     const auto result = static_cast<double>(static_cast<float>(x));
-    return std::fabs(result - x) < tolerance_ ? result : x;
+    return std::fabs(result - x) < spacing_ / shares ? result : x;
   }
   [[nodiscard]] Vec3 rounded(const Vec3& p) const { return {rounded(p.x), rounded(p.y), rounded(p.z)}; }
 
   std::span<const Vec3> before_;
   std::vector<Vec3> fitted_;
-  double tolerance_;
+  double spacing_;
   TriangleMesh& mesh_;
   SurfaceFans fans_;
   const Threads& threads_;
@@ -127,8 +131,7 @@ class Uncrossing {
 } // namespace
 
 UncrossCounts uncross(std::span<const Vec3> before, double spacing, TriangleMesh& mesh, const Threads& threads) {
-  constexpr double shares = 1000; // what the writer of files allows, too
-  return Uncrossing(before, spacing / shares, mesh, threads).run();
+  return Uncrossing(before, spacing, mesh, threads).run();
 }
 
 } // namespace eigencrust

@@ -19,9 +19,10 @@ struct UncrossCounts {
 };
 
 /// Moves vertices until no two triangles cross (exact test) and none is degenerate: first those of such triangles to
-/// the centroid of their neighbours, a few times, then step by step back to where they were.
-/// \param before the vertices of `mesh` before they were moved; vertices that were not moved stay
-/// \param spacing coordinates are rounded to float where that moves them by less than a thousandth of it, so that a
+/// the centroid of their neighbours, a few times and no farther than they had moved or than a spacing, then step by
+/// step back to where they were. \param before the vertices of `mesh` before they were moved; vertices that were not
+/// moved stay \param spacing coordinates are rounded to float where that moves them by less than a thousandth of it, so
+/// that a
 ///        file of floats holds what was tested
 UncrossCounts uncross(std::span<const Vec3> before, double spacing, TriangleMesh& mesh, const Threads& threads);
 

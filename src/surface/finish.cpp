@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <utility>
 
 #include "fit/fit.h"
 #include "fit/uncross.h"
@@ -43,6 +44,21 @@ MovedReport distances_moved(std::span<const Vec3> before, std::span<const Vec3> 
   if (distances.empty()) return {};
   return {distances.size(), median(distances), quantile(distances, 0.99),
           *std::max_element(distances.begin(), distances.end())};
+}
+
+/// No crossings, and no piece that turned over: pieces that did are back at their rows, and what crosses these moves
+/// on.
+UncrossCounts settle_moved(const std::vector<Vec3>& rows, const SampleModel& model, TriangleMesh& mesh,
+                           const Threads& threads) {
+  UncrossCounts counts = uncross(rows, model.typical_spacing, mesh, threads);
+  for (std::uint64_t pieces = 0;;) {
+    const std::uint64_t before = std::exchange(pieces, take_back_turned(rows, mesh, threads).pieces);
+    if (pieces <= before) return counts; // those that were taken back are found again
+    const UncrossCounts again = uncross(rows, model.typical_spacing, mesh, threads);
+    counts.crossings += again.crossings;
+    counts.eased += again.eased;
+    counts.left = again.left;
+  }
 }
 
 std::vector<Vec3> input_points(std::span<const SampleIndex> sample_of, const Tetrahedralization& t,
@@ -99,7 +115,7 @@ TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene
     to_input_coordinates(surface, t, rows);
   const bool moved = fitted || options.smooth > 0;
   if (moved) {
-    run.stage("crossings", [&] { return uncross(rows, scene.measures.model.typical_spacing, surface.mesh, threads); });
+    run.stage("crossings", [&] { return settle_moved(rows, scene.measures.model, surface.mesh, threads); });
     run.report().moved = distances_moved(rows, surface.mesh.vertices);
   }
   return run.stage("attributes", [&] { return finish_mesh(surface, t, cloud); });

@@ -12,6 +12,7 @@
 #include "clouds.h"
 #include "counter_random.h"
 #include "fit/local_quadric.h"
+#include "fit/sample_clusters.h"
 
 namespace eigencrust {
 namespace {
@@ -84,9 +85,9 @@ TEST(LocalQuadric, NoiseInAllDirectionsSagsOnASphereAndThatIsAllowedFor) {
     if (p.z > 0.5) fit.add({p, {}, 1});
   const auto found = fit.solve();
   ASSERT_TRUE(found);
-  EXPECT_NEAR(found->noise_variance, sigma * sigma, 0.06 * sigma * sigma);
-  EXPECT_NEAR(found->sag, -sigma * sigma, 0.2 * sigma * sigma);
-  EXPECT_NEAR(found->offset({0, 0, 1}, {0, 0, 1}), 0, 0.35 * sigma * sigma);
+  EXPECT_NEAR(found->noise_variance, sigma * sigma, 0.05 * sigma * sigma);
+  EXPECT_NEAR(found->sag, -sigma * sigma, 0.15 * sigma * sigma);
+  EXPECT_NEAR(found->offset({0, 0, 1}, {0, 0, 1}), 0, 0.3 * sigma * sigma);
 }
 
 TEST(FittedSurface, VerticesGoToTheMiddleOfTheNoiseAndKeepWhatIsSaidOfThem) {
@@ -99,7 +100,8 @@ TEST(FittedSurface, VerticesGoToTheMiddleOfTheNoiseAndKeepWhatIsSaidOfThem) {
     ASSERT_EQ(fitted.mesh.vertices.size(), samples.mesh.vertices.size());
     EXPECT_EQ(find_attribute(fitted.mesh.vertex_attributes, "source_index")->values,
               find_attribute(samples.mesh.vertex_attributes, "source_index")->values);
-    EXPECT_LT(mean_error(fitted.mesh, from_unit_sphere), 0.35 * mean_error(samples.mesh, from_unit_sphere)) << sigma;
+    const double left = sigma > 0.5 ? 0.3 : 0.2;
+    EXPECT_LT(mean_error(fitted.mesh, from_unit_sphere), left * mean_error(samples.mesh, from_unit_sphere)) << sigma;
     EXPECT_EQ(fitted.report.mesh.self_intersections, 0);
     EXPECT_EQ(fitted.report.mesh.genus, samples.report.mesh.genus);
     ASSERT_TRUE(fitted.report.moved);
@@ -124,7 +126,7 @@ TEST(FittedSurface, ForcedItMovesWhatIsCleanByNextToNothing) {
   const std::size_t n = 3000;
   const Result forced = reconstructed(clouds::sphere(n), SurfaceKind::fitted);
   ASSERT_TRUE(forced.report.moved);
-  EXPECT_LT(mean_error(forced.mesh, from_unit_sphere), 0.01 * spacing_of(n));
+  EXPECT_LT(mean_error(forced.mesh, from_unit_sphere), 0.001 * spacing_of(n));
   EXPECT_EQ(forced.report.mesh.self_intersections, 0);
 }
 
@@ -163,7 +165,7 @@ TEST(FittedSurface, TheSidesOfAWallAreKeptApart) {
     ++count;
   }
   ASSERT_GT(count, 1000);
-  EXPECT_LT(error / count, 0.13) << "0.32 without the fit";
+  EXPECT_LT(error / count, 0.08) << "0.32 without the fit";
   EXPECT_EQ(result.report.mesh.self_intersections, 0);
 }
 
@@ -175,9 +177,76 @@ TEST(FittedSurface, TheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one.mesh.vertices, three.mesh.vertices);
 }
 
-TEST(FittedSurface, ThePaperKeepsItsSamples) {
+TEST(FittedSurface, NoVertexMovesFartherThanNoiseExplains) {
+  // The upper half has a hundredth of the samples of the lower: there the spacing is no measure for a step.
+  const std::size_t n = 8000;
+  const double spacing = spacing_of(n), sigma = 0.4 * spacing;
+  Points points;
+  for (const Vec3& p : noisy(clouds::sphere(n), sigma, 6))
+    if (p.z < 0 || points.size() % 100 == 0 || static_cast<int>(1e6 * (p.x + 2)) % 100 == 0) points.push_back(p);
+  const Result result = reconstructed(points, SurfaceKind::fitted);
+  ASSERT_TRUE(result.report.moved);
+  EXPECT_LT(result.report.moved->max, 3 * 1.5 * sigma + 1.5 * spacing);
+  EXPECT_EQ(result.report.mesh.self_intersections, 0);
+}
+
+TEST(SampleClusters, MomentsAreThoseOfTheirSamples) {
+  const Points points = noisy(clouds::sphere(50), 0.3, 7);
+  SampleCluster first, second;
+  for (std::size_t i = 0; i < points.size(); ++i) (i < 20 ? first : second).add({points[i], {}, 1});
+  first.add(second);
+  Vec3 mean;
+  for (const Vec3& p : points) mean = mean + (1.0 / 50) * p;
+  EXPECT_NEAR(distance(first.mean, mean), 0, 1e-14);
+  EXPECT_EQ(first.count, 50);
+  const Vec3 a{1, 2, -1}, b{0.5, -1, 3};
+  double covariance = 0;
+  for (const Vec3& p : points) covariance += dot(a, p - mean) * dot(b, p - mean) / 50;
+  EXPECT_NEAR(first.covariance(a, b), covariance, 1e-12);
+}
+
+TEST(SampleClusters, AQuadricIsFoundFromClustersAsFromSamples) {
+  // Far finer than the weights change.
+  const auto height = [](double x, double y) { return 0.1 + 0.2 * x * x - 0.3 * x * y + 0.1 * y * y; };
+  QuadricFit samples({}, {0, 0, 1}, 1), clusters({}, {0, 0, 1}, 1);
+  for (int i = -60; i < 60; i += 4)
+    for (int j = -60; j < 60; j += 4) {
+      SampleCluster cluster;
+      for (int k = 0; k < 16; ++k) {
+        const double x = (i + k % 4) / 60.0, y = (j + k / 4) / 60.0;
+        samples.add({{x, y, height(x, y)}, {}, 1});
+        cluster.add({{x, y, height(x, y)}, {}, 1});
+      }
+      clusters.add(cluster);
+    }
+  const auto one = samples.solve(), other = clusters.solve();
+  ASSERT_TRUE(one && other);
+  EXPECT_NEAR(one->height[0], 0.1, 1e-6);
+  for (std::size_t k = 0; k < one->height.size(); ++k) EXPECT_NEAR(one->height[k], other->height[k], 1e-6) << k;
+  EXPECT_NEAR(one->variance, other->variance, 0.02 * one->variance);
+}
+
+TEST(SampleClusters, EveryLevelIsAboutAQuarterOfTheOneBelowAndHoldsAllItsSamples) {
+  const Points points = clouds::sphere(5000);
+  const Result result = reconstructed(points, SurfaceKind::samples);
+  std::vector<std::uint32_t> vertex_of(points.size());
+  for (std::uint32_t s = 0; s < points.size(); ++s) vertex_of[s] = s;
+  const auto& vertices = result.mesh.vertices;
+  const ClusterPyramid pyramid(SurfaceFans(result.mesh), vertices, vertices, vertex_of, Threads(2));
+  ASSERT_GE(pyramid.levels(), 4);
+  for (std::size_t l = 1; l < pyramid.levels(); ++l) {
+    const auto &fine = pyramid[l - 1], &coarse = pyramid[l];
+    EXPECT_NEAR(static_cast<double>(coarse.cluster.size()) / static_cast<double>(fine.cluster.size()), 0.25, 0.1);
+    double count = 0;
+    for (const SampleCluster& cluster : coarse.cluster) count += cluster.count;
+    EXPECT_EQ(count, 5000);
+    for (std::size_t c = 0; c < coarse.seed.size(); ++c) EXPECT_EQ(fine.parent[coarse.seed[c]], c);
+  }
+}
+
+TEST(FittedSurface, OnlyWhoAsksForItGetsIt) {
   EXPECT_EQ(Options::of(Preset::paper).surface, SurfaceKind::samples);
-  EXPECT_EQ(Options::of(Preset::robust).surface, SurfaceKind::automatic);
+  EXPECT_EQ(Options::of(Preset::robust).surface, SurfaceKind::samples);
 }
 
 } // namespace
