@@ -57,13 +57,26 @@ struct InputOptions {
   std::vector<std::string> paths;
   std::string columns, scan_index, sensors, pcd_viewpoint = "auto", crop, thin;
   std::vector<std::string> sensor, sensor_direction; ///< one per input
+  std::vector<std::string> unit, scale;              ///< one per input, or one for all
+  std::string shift;
 };
 void add_input_options(OptionTable& app, InputOptions& options);
+/// Unit, scale and shift of the inputs.
+void add_frame_options(OptionTable& app, InputOptions& options);
+/// \throws Error{usage}
+double scale_of_input(const InputOptions& options, std::size_t input);
+/// \throws Error{usage}
+Vec3 shift_of_inputs(const InputOptions& options);
+/// What was done to the coordinates, for the files that are written; empty: nothing but a shift.
+std::vector<std::string> frame_comments(const InputOptions& options);
+
 /// What read_inputs has to say beside the cloud.
 struct ReadReport {
-  std::vector<InputFile> files;                ///< with path, hash and count
-  std::vector<std::vector<std::string>> notes; ///< what each file's reader had to say
-  std::vector<std::uint32_t> rows;             ///< of the files, one per point, where --crop or --thin left some out
+  std::vector<InputFile> files;      ///< with path, hash and count
+  std::vector<ReadNotes> notes;      ///< what each file's reader had to say
+  std::vector<Box3> bounds;          ///< of each file's finite points
+  std::vector<std::string> together; ///< what is odd about several inputs
+  std::vector<std::uint32_t> rows;   ///< of the files, one per point, where --crop or --thin left some out
   std::size_t rows_read = 0;
 };
 /// Reads and merges, then leaves out what --crop and --thin say. Sensors that the options name take the place of those
@@ -71,11 +84,15 @@ struct ReadReport {
 PointCloud read_inputs(const InputOptions& options, ReadReport& report,
                        const std::function<void(double)>& progress = {});
 
-/// A few lines for people: counts, guarantees, size.
+/// A few lines for people: counts, guarantees, size. An open mesh has rims, and neither a volume nor a side.
 std::string describe(const MeshSummary& mesh);
+/// The same with what the run knows of it.
+std::string describe(const Report& report);
 /// 12345678 -> 12,345,678
 std::string grouped(std::uint64_t value);
 /// Three or four digits that matter.
 std::string rounded(double value);
+/// (x, y, z) with the digits that tell such a point from others `extent` away.
+std::string show_point(const Vec3& point, double extent);
 
 } // namespace eigencrust::cli

@@ -115,19 +115,28 @@ void add_input_options(OptionTable& app, InputOptions& options) {
   app.add_option("--sensors", options.sensors,
                  "File with a row scan,x,y,z for each scan, or scan,dx,dy,dz under a header; none: ignore all sensors")
       ->type_name(file_to_read);
+  add_frame_options(app, options);
 }
 
 namespace {
+
+Box3 bounds_of(const std::vector<Vec3>& points) {
+  Box3 box;
+  for (const Vec3& p : points)
+    if (is_finite(p)) box.add(p);
+  return box;
+}
 
 /// As they are read or, through a pipe, as they were read.
 PointCloud read_input(const std::string& path, const ReadOptions& options, ReadReport& report) {
   const ReadableFile file(path);
   return file.reading([&] {
-    std::vector<std::string> said;
+    ReadNotes said;
     std::string sha256;
     PointCloud cloud = read_point_cloud(file.path(), options, &said, &sha256);
     report.notes.push_back(std::move(said));
     report.files.push_back({path, std::move(sha256), cloud.points.size(), {}, 0});
+    report.bounds.push_back(bounds_of(cloud.points));
     return cloud;
   });
 }
@@ -141,10 +150,7 @@ LengthChoice parse_thinning(const std::string& text) {
 }
 
 double thinning_edge(const LengthChoice& length, const PointCloud& cloud) {
-  Box3 box;
-  for (const Vec3& p : cloud.points)
-    if (is_finite(p)) box.add(p);
-  const double edge = *length.given(box.diagonal());
+  const double edge = *length.given(bounds_of(cloud.points).diagonal());
   if (!(edge > 0)) fail_usage("the points are all in one place: a share of their box is no length", "leave out --thin");
   return edge;
 }
@@ -179,15 +185,20 @@ PointCloud read_inputs(const InputOptions& options, ReadReport& report, const st
   const std::optional<LengthChoice> thin =
       options.thin.empty() ? std::nullopt : std::optional(parse_thinning(options.thin));
   // What is replaced need not be looked for.
-  const ReadOptions read_options{split(options.columns), viewpoint_of(options.pcd_viewpoint),
-                                 sensors.empty() && options.sensors.empty()};
+  ReadOptions read_options{split(options.columns), viewpoint_of(options.pcd_viewpoint),
+                           sensors.empty() && options.sensors.empty()};
+  read_options.shift = shift_of_inputs(options);
+  for (std::size_t i = 0; i < options.paths.size(); ++i) scale_of_input(options, i); // refused before anything is read
   PointCloud cloud;
+  std::vector<Extent> extents;
   for (std::size_t i = 0; i < options.paths.size(); ++i) {
+    read_options.scale = scale_of_input(options, i);
     PointCloud next = read_input(options.paths[i], read_options, report);
     if (!sensors.empty()) {
       next.sensors.assign(1, sensors[i]);
       next.sensor_of.assign(next.points.size(), 0);
     }
+    if (options.paths.size() > 1) extents.push_back(extent_of(next.points));
     if (i == 0)
       cloud = std::move(next);
     else
@@ -195,10 +206,13 @@ PointCloud read_inputs(const InputOptions& options, ReadReport& report, const st
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(options.paths.size()));
     if (interrupted()) throw Error(ErrorKind::cancelled, "reading", "cancelled", "start again to finish");
   }
+  report.together = compare_extents(options.paths, extents);
   if (!options.scan_index.empty()) {
     if (options.paths.size() > 1)
       fail_usage("--scan-index goes with a single input", "leave it out: several inputs are several scans");
     cloud.scan_index = read_scan_index(options.scan_index, cloud.points.size());
+    cloud.grids.clear(); // they were those of other scans
+    cloud.cell.clear();
   }
   if (!options.sensors.empty() && options.sensors != "none") read_scan_sensors(options.sensors, cloud);
   note_sensors(cloud, report.files);
@@ -218,30 +232,87 @@ std::string rounded(double value) {
   return buffer.data();
 }
 
-std::string describe(const MeshSummary& mesh) {
-  const auto count = [](std::uint64_t n, const char* one, const char* many) {
-    return grouped(n) + " " + (n == 1 ? one : many);
-  };
+std::string show_point(const Vec3& point, double extent) {
+  const double largest = std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+  int digits = 4;
+  if (extent > 0 && largest > extent) digits += static_cast<int>(std::ceil(std::log10(largest / extent)));
+  std::array<char, 120> text{};
+  std::snprintf(text.data(), text.size(), "(%.*g, %.*g, %.*g)", std::min(digits, 17), point.x, std::min(digits, 17),
+                point.y, std::min(digits, 17), point.z);
+  return text.data();
+}
+
+namespace {
+
+std::string count_of(std::uint64_t n, const char* one, const char* many) {
+  return grouped(n) + " " + (n == 1 ? one : many);
+}
+
+/// Counts and guarantees. \param side what to call a mesh whose normals look inward
+std::string describe_shape(const MeshSummary& mesh, const std::string& side) {
   std::ostringstream out;
-  out << "  " << count(mesh.vertices, "vertex", "vertices") << ", " << count(mesh.triangles, "triangle", "triangles")
-      << ", " << count(mesh.components, "component", "components") << ", genus " << mesh.genus << "\n";
+  out << "  " << count_of(mesh.vertices, "vertex", "vertices") << ", "
+      << count_of(mesh.triangles, "triangle", "triangles") << ", "
+      << count_of(mesh.components, "component", "components") << ", genus " << mesh.genus << "\n";
   out << "  closed: "
-      << (mesh.closed() ? "yes" : "no (" + count(mesh.boundary_edges, "boundary edge", "boundary edges") + ")");
+      << (mesh.closed()
+              ? "yes"
+              : "no (" + count_of(mesh.boundary_edges, "boundary edge", "boundary edges") +
+                    (mesh.boundary_loops > 0 ? ", " + count_of(mesh.boundary_loops, "rim", "rims") : "") + ")");
   out << ", manifold: "
       << (mesh.manifold() ? "yes"
-                          : "no (" + count(mesh.nonmanifold_edges, "edge", "edges") + ", " +
-                                count(mesh.nonmanifold_vertices, "vertex", "vertices") + ")");
+                          : "no (" + count_of(mesh.nonmanifold_edges, "edge", "edges") + ", " +
+                                count_of(mesh.nonmanifold_vertices, "vertex", "vertices") + ")");
   out << ", oriented: "
-      << (mesh.oriented() ? (mesh.volume >= 0 || !mesh.closed() ? "yes" : "yes, inward")
-                          : "no (" + count(mesh.inconsistent_edges, "edge", "edges") + ")")
+      << (mesh.oriented() ? (mesh.closed() && mesh.volume < 0 ? "yes, " + side : "yes")
+                          : "no (" + count_of(mesh.inconsistent_edges, "edge", "edges") + ")")
       << "\n";
   if (mesh.degenerate_triangles > 0) out << "  degenerate triangles: " << grouped(mesh.degenerate_triangles) << "\n";
   out << "  self-intersections: "
       << (mesh.self_intersections < 0 ? "not counted"
                                       : grouped(static_cast<std::uint64_t>(mesh.self_intersections)) + " pairs")
       << "\n";
-  out << "  volume " << rounded(mesh.volume) << ", area " << rounded(mesh.area) << "\n";
   return out.str();
+}
+
+std::string describe_size(const MeshSummary& mesh) {
+  return (mesh.closed() ? "  volume " + rounded(mesh.volume) + ", area " : "  area ") + rounded(mesh.area);
+}
+
+std::string describe_moved(const Report& report) {
+  if (!report.moved) return {};
+  std::ostringstream out;
+  out << "  " << grouped(report.moved->vertices) << " vertices moved from their samples: median "
+      << rounded(report.moved->median) << ", 99 % below " << rounded(report.moved->q99) << "\n";
+  return out.str();
+}
+
+} // namespace
+
+std::string describe(const MeshSummary& mesh) { return describe_shape(mesh, "inward") + describe_size(mesh) + "\n"; }
+
+std::string describe(const Report& report) {
+  const MeshSummary& mesh = report.mesh;
+  const bool rooms = report.surroundings.kind == SceneKind::interior;
+  std::string text = describe_shape(mesh, rooms ? "to the scanners" : "inward");
+  if (mesh.closed() && rooms)
+    text += "  interior: free space of " + rounded(-mesh.volume) + ", walls of " + rounded(mesh.area) + "\n";
+  else
+    text += describe_size(mesh);
+  if (mesh.closed() && rooms) return text + describe_moved(report);
+  if (!mesh.closed()) // what is left after trimming is covered
+    text += ", " + (report.options.trim ? "all" : rounded(100 * (1 - report.unsupported_area)) + " %") +
+            " of it covered by samples";
+  if (report.base) text += "; " + rounded(report.base->volume_above_rim) + " above the plane of the rim";
+  text += "\n" + describe_moved(report);
+  if (report.surroundings.kind == SceneKind::facade)
+    text += "  one side: seen from " + to_string(report.surroundings.front) + ", solid behind" +
+            (report.options.facade
+                 ? ""
+                 : " (found from how the samples lie; --facade -z if it was seen from below, --facade off if "
+                   "it is a body)") +
+            "\n";
+  return text;
 }
 
 } // namespace eigencrust::cli

@@ -35,11 +35,14 @@ std::vector<Request> split_jobs(const Request& all, OutputKind kind) {
     if (!values->empty() && values->size() != input.paths.size())
       throw Error(ErrorKind::usage, "command line", std::string("not one ") + option + " for each input",
                   "name one for each input, in order");
+  for (std::size_t i = 0; i < input.paths.size(); ++i) scale_of_input(input, i); // as many as inputs, or one
   std::vector<Request> jobs;
   std::map<std::string, std::string> input_of;
   for (std::size_t i = 0; i < input.paths.size(); ++i) {
     Request job = all;
     job.input.paths = {input.paths[i]};
+    if (input.unit.size() > 1) job.input.unit = {input.unit[i]};
+    if (input.scale.size() > 1) job.input.scale = {input.scale[i]};
     if (!input.sensor.empty()) job.input.sensor = {input.sensor[i]};
     if (!input.sensor_direction.empty()) job.input.sensor_direction = {input.sensor_direction[i]};
     const std::string name = std::filesystem::path(input.paths[i]).stem().string();

@@ -77,6 +77,7 @@ void check_files(const NamedFiles& named) {
     if (!names_a_file(word)) continue;
     refuse_impossible(word);
     written.emplace_back(word);
+    written.emplace_back(offset_file(word));
   }
   for (const Place& output : written)
     for (const Place& input : read)

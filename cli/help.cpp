@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<std::string_view, 12> everyday{"--output", "--report",     "--columns", "--crop",
                                                     "--thin",   "--sensor",     "--noise",   "--trim",
                                                     "--smooth", "--components", "--keep",    "--drop-outliers"};
-constexpr std::size_t few = 13; ///< options that are shown all at once
+constexpr std::size_t few = 17; ///< options that are shown all at once
 
 OptionText text_of(const Option& option) {
   OptionText text;

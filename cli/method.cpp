@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include <eigencrust/memory_forecast.h>
+#include <eigencrust/option_table.h>
 
 #include "messages.h"
 #include "standard_streams.h"
@@ -12,8 +13,36 @@
 namespace eigencrust::cli {
 namespace {
 
-std::string defaults(const std::string& robust, const std::string& paper) {
-  return robust == paper ? " [" + robust + "]" : " [" + robust + "; paper: " + paper + "]";
+/// " [auto; paper: off]". What is off unless it is named, or empty, goes without saying, and so does the tolerance,
+/// which means something else once it is given.
+std::string shown_default(const OptionEntry& entry) {
+  const std::string text = describe_default(entry);
+  const bool is_shown = entry.kind == OptionEntry::Kind::flag
+                            ? text == "on"
+                            : entry.kind != OptionEntry::Kind::points && entry.kind != OptionEntry::Kind::number;
+  return is_shown ? " [" + text + "]" : std::string();
+}
+
+/// The options of the library's table.
+void add_group(OptionTable& app, Request& r, OptionEntry::Group group) {
+  app.begin_chapter(std::string(chapter(group)));
+  for (const OptionEntry& entry : option_table()) {
+    if (entry.group != group) continue;
+    const std::string name = "--" + std::string(entry.name), help = std::string(entry.help) + shown_default(entry);
+    MethodValue& value = r.method[std::string(entry.name)];
+    if (entry.kind == OptionEntry::Kind::flag) {
+      value.flag = describe_default(entry) == "on";
+      app.add_flag(value.flag ? name + ",!--no-" + std::string(entry.name) : name, value.flag, help);
+      continue;
+    }
+    Option* option = entry.kind == OptionEntry::Kind::points  ? app.add_option(name, value.points, help)
+                     : entry.kind == OptionEntry::Kind::count ? app.add_option(name, value.count, help)
+                                                              : app.add_option(name, value.text, help);
+    if (const std::vector<std::string> words = choices(entry); !words.empty())
+      option->usually_of(words);
+    else
+      option->type_name(std::string(entry.value));
+  }
 }
 
 } // namespace
@@ -28,105 +57,19 @@ void add_output_options(OptionTable& app, Request& r, const std::string& what) {
                "Each input is a job of its own; {} in -o and --report stands for its name: -o meshes/{}.ply");
 }
 
-namespace {
-
-void add_named_points(OptionTable& app, Request& r) {
-  app.begin_chapter("What is known beforehand");
-  app.add_option("--outside-point", r.outside_points, "x,y,z of a point known to be outside; repeatable")
-      ->type_name("X,Y,Z");
-  app.add_option("--inside-point", r.inside_points, "x,y,z of a point known to be inside; repeatable")
-      ->type_name("X,Y,Z");
+void add_method_options(OptionTable& app, Request& r) {
+  add_group(app, r, OptionEntry::Group::known);
   app.add_option("--outside-points", r.outside_files, "File of points known to be outside; repeatable")
       ->type_name(file_to_read);
   app.add_option("--inside-points", r.inside_files, "File of points known to be inside; repeatable")
       ->type_name(file_to_read);
+  add_group(app, r, OptionEntry::Group::method);
 }
 
-} // namespace
-
-void add_method_options(OptionTable& app, Request& r) {
-  add_named_points(app, r);
-  app.begin_chapter("Method");
-  const Options robust = Options::of(Preset::robust), paper = Options::of(Preset::paper);
-  app.add_option("--preset", r.preset,
-                 "robust: the measured best; paper: Kolluri, Shewchuk, O'Brien 2004 to the letter")
-      ->capture_default_str()
-      ->usually_of({"robust", "paper"});
-  app.add_option("--noise", r.noise,
-                 "Standard deviation of the noise: auto (measured at the samples), off, a length, N%" +
-                     defaults(to_string(robust.noise), to_string(paper.noise)))
-      ->type_name("L");
-  app.add_option("--grid-spacing", r.grid_spacing,
-                 "Diagonal of the scanner's grid squares: auto, off, a length, N%" +
-                     defaults(to_string(robust.grid_spacing), to_string(paper.grid_spacing)))
-      ->type_name("L");
-  app.add_option("--questionable", r.questionable,
-                 "Tetrahedra under 4 grid spacings lose their say before or after the first partition, or never" +
-                     defaults(to_string(robust.questionable), to_string(paper.questionable)))
-      ->usually_of({"before", "after", "never"});
-  app.add_option("--weights", r.weights,
-                 "Pole pairs: evidence (isolated samples, which may be outliers, count little) or paper (all count)" +
-                     defaults(to_string(robust.weights), to_string(paper.weights)))
-      ->usually_of({"evidence", "paper"});
-  app.add_option("--second-stage", r.second_stage,
-                 "How all tetrahedra are settled: cut, or as the paper does: harmonic, eigenvector" +
-                     defaults(to_string(robust.second_stage), to_string(paper.second_stage)))
-      ->usually_of({"cut", "harmonic", "eigenvector"});
-  app.add_option("--eigensolver", r.eigensolver,
-                 "multigrid or lanczos (the slow reference)" +
-                     defaults(to_string(robust.solver.eigensolver), to_string(paper.solver.eigensolver)))
-      ->usually_of({"multigrid", "lanczos"});
-  app.add_option("--tolerance", r.tolerance,
-                 "Residual at which an eigenvector counts as converged; given, signs alone do not stop it")
-      ->type_name("X");
-  app.add_option("--max-steps", r.max_steps,
-                 "Steps of the solver at most" +
-                     defaults(std::to_string(robust.solver.max_steps), std::to_string(paper.solver.max_steps)))
-      ->type_name("N");
-  app.add_flag("--manifold,!--no-manifold", r.manifold, "Make the surface a manifold [on]");
-  app.add_option("--components", r.components,
-                 "Pieces to keep: supported, all, largest or a number" +
-                     defaults(to_string(robust.components), to_string(paper.components)))
-      ->type_name("KEEP");
-  app.add_option("--crossing-depth", r.crossing_depth,
-                 "Where sensors are known: a line of sight crosses what it enters farther than this from its sample; "
-                 "auto or a length" +
-                     defaults("auto", "auto"))
-      ->type_name("L");
-  app.add_option(
-         "--facade", r.facade,
-         "One-sided scan: auto (found from the sensors), off, or outside in front along +x -x +y -y +z or -z: the "
-         "mesh stays open [auto]")
-      ->usually_of({"auto", "off", "+x", "-x", "+y", "-y", "+z", "-z"});
-  app.add_flag("--trim", r.trim, "Leave out triangles that the samples do not bear out: the mesh is then open");
-}
-
-void add_smoothing_options(OptionTable& app, Request& r) {
-  app.begin_chapter("Results");
-  const Options robust = Options::of(Preset::robust), paper = Options::of(Preset::paper);
-  app.add_option("--surface", r.surface,
-                 "Vertices: samples (input points), fitted (moved to the middle of the noise), auto (fitted where "
-                 "noise was measured)" +
-                     defaults(to_string(robust.surface), to_string(paper.surface)))
-      ->usually_of({"auto", "samples", "fitted"});
-  app.add_option("--smooth", r.smooth,
-                 "Smoothing steps; vertices then leave the samples" +
-                     defaults(std::to_string(robust.smooth), std::to_string(paper.smooth)))
-      ->type_name("N");
-  app.add_option(
-         "--smoothing", r.smoothing,
-         "laplacian or taubin (keeps the volume)" + defaults(to_string(robust.smoothing), to_string(paper.smoothing)))
-      ->usually_of({"laplacian", "taubin"});
-}
+void add_smoothing_options(OptionTable& app, Request& r) { add_group(app, r, OptionEntry::Group::smoothing); }
 
 void add_run_options(OptionTable& app, Request& r) {
-  app.begin_chapter("Running");
-  app.add_option("--threads", r.threads, "Threads, 0 for all cores; the result is the same for any number")
-      ->capture_default_str()
-      ->type_name("N");
-  app.add_option("--max-memory", r.max_memory,
-                 "Refuse the cloud, before any work, if more memory is forecast: 4G, 500M, bytes [none]")
-      ->type_name("SIZE");
+  add_group(app, r, OptionEntry::Group::run);
   app.add_option("--progress", r.progress, "auto, bar, jsonl or off; on stderr")
       ->one_of({"auto", "bar", "jsonl", "off"})
       ->capture_default_str();
@@ -136,37 +79,22 @@ void add_run_options(OptionTable& app, Request& r) {
 }
 
 Options effective_options(const Request& r) {
-  Options o = Options::of(parse_preset(r.preset));
-  if (!r.grid_spacing.empty()) o.grid_spacing = parse_length_choice("grid spacing", r.grid_spacing);
-  if (!r.noise.empty()) o.noise = parse_length_choice("noise", r.noise);
-  if (!r.questionable.empty()) o.questionable = parse_questionable(r.questionable);
-  if (!r.weights.empty()) o.weights = parse_weights(r.weights);
-  if (!r.second_stage.empty()) o.second_stage = parse_second_stage(r.second_stage);
-  if (!r.eigensolver.empty()) o.solver.eigensolver = parse_eigensolver(r.eigensolver);
-  if (r.tolerance) {
-    o.solver.tolerance = *r.tolerance;
-    o.solver.stop_on_stable_signs = false;
+  Options o;
+  for (const OptionEntry& entry : option_table()) { // the preset comes first
+    const auto found = r.method.find(entry.name);
+    if (found == r.method.end()) continue;
+    const MethodValue& value = found->second;
+    if (entry.kind == OptionEntry::Kind::flag) entry.set(o, value.flag ? "on" : "off");
+    if (value.text) entry.set(o, *value.text);
+    if (value.count) entry.set(o, std::to_string(*value.count));
+    for (const std::string& point : value.points) entry.set(o, point);
   }
-  if (r.max_steps) o.solver.max_steps = *r.max_steps;
-  o.manifold = r.manifold;
-  o.trim = r.trim;
-  if (!r.components.empty()) o.components = parse_components(r.components);
-  if (!r.surface.empty()) o.surface = parse_surface_kind(r.surface);
-  if (r.smooth) o.smooth = *r.smooth;
-  if (!r.smoothing.empty()) o.smoothing = parse_smoothing(r.smoothing);
-  for (const std::string& text : r.outside_points) o.outside_points.push_back(parse_point(text));
-  for (const std::string& text : r.inside_points) o.inside_points.push_back(parse_point(text));
   for (const auto& [files, points] :
        {std::pair{&r.outside_files, &o.outside_points}, std::pair{&r.inside_files, &o.inside_points}})
     for (const std::string& file : *files) {
       const PointCloud named = read_point_cloud(file);
       points->insert(points->end(), named.points.begin(), named.points.end());
     }
-  if (!r.crossing_depth.empty()) o.crossing_depth = parse_crossing_depth(r.crossing_depth);
-  o.detect_facade = r.facade.empty() || r.facade == "auto";
-  if (!r.facade.empty() && r.facade != "auto" && r.facade != "off") o.facade = parse_axis(r.facade);
-  o.threads = r.threads;
-  if (!r.max_memory.empty()) o.max_memory = parse_memory_size(r.max_memory);
   check_options(o);
   return o;
 }
@@ -241,6 +169,9 @@ MethodRun::MethodRun(const Request& request, std::vector<std::string> command, O
   FileStage stage(*observer_, "reading");
   cloud = read_inputs(request.input, read_, [&](double fraction) { stage.progress(fraction); });
   stage.end();
+  for (std::size_t i = 0; i < read_.files.size(); ++i)
+    for (const std::string& text : read_.notes[i].warnings) warn_at_once(read_.files[i].path + ": " + text);
+  for (const std::string& text : read_.together) warn_at_once(text);
 }
 
 void MethodRun::warn_at_once(const std::string& text) {
@@ -264,7 +195,9 @@ void MethodRun::name_rows_of_files() {
 void MethodRun::reconstruct(const Options& options) {
   check_memory(cloud, options.max_memory);
   warn_at_once(memory_warning(forecast(cloud), available_memory_bytes()));
-  if (!request_.smoothing.empty() && options.smooth == 0) warn_at_once("--smoothing has no effect without --smooth N");
+  const auto smoothing = request_.method.find("smoothing");
+  if (smoothing != request_.method.end() && smoothing->second.text && options.smooth == 0)
+    warn_at_once("--smoothing has no effect without --smooth N");
   result = eigencrust::reconstruct(cloud, options, *observer_);
   name_rows_of_files();
   result.report.command = command_;
@@ -276,10 +209,13 @@ void MethodRun::finish(const std::function<WriteResult(OutputFiles&, const std::
   Report& report = result.report;
   FileStage stage(*observer_, "writing");
   OutputFiles files;
+  std::vector<std::string> comments = frame_comments(request_.input);
+  comments.insert(comments.begin(), std::string("made by eigencrust ") + version());
   const WriteResult written = write(files, real_output(request_.output),
                                     {.spacing = report.spacing,
-                                     .comments = {std::string("made by eigencrust ") + version()},
-                                     .format = request_.format});
+                                     .comments = std::move(comments),
+                                     .format = request_.format,
+                                     .shift = shift_of_inputs(request_.input)});
   report.warnings.insert(report.warnings.end(), written.warnings.begin(), written.warnings.end());
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   report.peak_memory_bytes = peak_memory_bytes();

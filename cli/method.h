@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <functional>
+#include <map>
 #include <optional>
 
 #include "command.h"
@@ -12,23 +13,22 @@
 
 namespace eigencrust::cli {
 
-/// What the command line said; empty strings leave the preset's choice.
+/// What was said of one option of the library's table.
+struct MethodValue {
+  // Nothing: the preset's choice stays.
+  std::optional<std::string> text;
+  std::optional<std::uint32_t> count; ///< where the kind is count
+  std::vector<std::string> points;    ///< where the kind is points
+  bool flag = false;                  ///< where the kind is flag
+};
+
+/// What the command line said.
 struct Request {
   InputOptions input;
   std::string output, format, report, progress = "auto", dump_stages;
   bool each = false;
-  std::string preset = to_string(Preset::robust);
-  std::string weights, second_stage, eigensolver, questionable, grid_spacing, noise, components, surface, smoothing,
-      facade;
-  bool manifold = Options{}.manifold; // on in both presets
-  bool trim = Options{}.trim;
-  std::optional<std::uint32_t> smooth;
-  std::optional<double> tolerance;
-  std::string crossing_depth;
-  std::optional<std::uint32_t> max_steps;
-  std::vector<std::string> outside_points, inside_points, outside_files, inside_files;
-  unsigned threads = Options{}.threads;
-  std::string max_memory;
+  std::map<std::string, MethodValue, std::less<>> method; ///< by the option's name in the library's table
+  std::vector<std::string> outside_files, inside_files;
   bool quiet = false;
 };
 

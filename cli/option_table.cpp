@@ -66,6 +66,7 @@ struct Set {
 
   void operator()(bool*) const {}
   void operator()(std::string* target) const { *target = value; }
+  void operator()(std::optional<std::string>* target) const { *target = value; }
   void operator()(std::vector<std::string>* target) const { target->push_back(value); }
   template <class Number>
   void operator()(Number* target) const {
@@ -92,6 +93,7 @@ struct Show {
 struct NameOfValue {
   std::string operator()(const bool*) const { return {}; }
   std::string operator()(const std::string*) const { return "TEXT"; }
+  std::string operator()(const std::optional<std::string>*) const { return "TEXT"; }
   std::string operator()(const std::vector<std::string>*) const { return "TEXT"; }
   std::string operator()(const double*) const { return "X"; }
   std::string operator()(const std::optional<double>*) const { return "X"; }

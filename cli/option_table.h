@@ -15,7 +15,7 @@ namespace eigencrust::cli {
 
 /// What an option sets. Lists grow by one each time the option is named.
 using Target = std::variant<bool*, std::string*, std::vector<std::string>*, std::uint32_t*, std::uint64_t*, double*,
-                            std::optional<std::uint32_t>*, std::optional<double>*>;
+                            std::optional<std::string>*, std::optional<std::uint32_t>*, std::optional<double>*>;
 
 /// One option, or one of the words without a name.
 class Option {
@@ -81,7 +81,7 @@ class OptionTable {
     return add(names, &target, meaning);
   }
   /// Options declared from here on belong to it.
-  void begin_chapter(const char* name) { chapter_ = name; }
+  void begin_chapter(std::string name) { chapter_ = std::move(name); }
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::string& description() const { return description_; }

@@ -61,10 +61,7 @@ int reconstruct(const Request& request, const std::vector<std::string>& command)
   const Report& report = run.result.report;
   std::ostream& out = run.summary();
   out << printable(request.output) << ": " << grouped(report.points) << " points in " << run.cost() << "\n"
-      << run.selection() << describe(report.mesh);
-  if (report.moved)
-    out << "  " << grouped(report.moved->vertices) << " vertices moved from their samples: median "
-        << rounded(report.moved->median) << ", 99 % below " << rounded(report.moved->q99) << "\n";
+      << run.selection() << describe(report);
   if (report.one_sided)
     out << "  one-sided scan: every line of sight is within "
         << std::lround(report.one_sided->widest_angle * 180 / std::numbers::pi) << " degrees of their mean direction\n";

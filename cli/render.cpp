@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "command.h"
+#include "picture.h"
 #include "standard_streams.h"
 
 namespace eigencrust::cli {
@@ -78,36 +79,8 @@ std::vector<RenderOptions> check_request(Request& r) {
   std::vector<RenderOptions> sides;
   for (const std::string& view : r.views) sides.push_back(seen_from(view, options));
   if (sides.empty()) sides.push_back(options);
-  std::string extension = std::filesystem::path(r.output).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  if (extension != ".png" && !is_standard_output(r.output))
-    throw Error(ErrorKind::usage, r.output, "pictures are written as PNG only", "end the name in .png");
-  if (!is_standard_output(r.output)) require_writable(r.output);
+  check_picture(r.output);
   return sides;
-}
-
-/// One object: its views in one or two rows. Several: side by side, a row for each view.
-Image arranged(const std::vector<Image>& pictures, std::size_t objects, std::size_t views) {
-  std::vector<Image> rows;
-  if (objects == 1) {
-    const std::size_t columns = views <= 3 ? views : (views + 1) / 2;
-    for (std::size_t i = 0; i < views; i += columns) {
-      std::vector<Image> row(pictures.begin() + static_cast<std::ptrdiff_t>(i),
-                             pictures.begin() + static_cast<std::ptrdiff_t>(std::min(views, i + columns)));
-      Image blank = row.front();
-      std::fill(blank.rgb.begin(), blank.rgb.end(), std::uint8_t{255});
-      row.resize(columns, blank);
-      rows.push_back(beside(row));
-    }
-    return stacked(rows);
-  }
-  for (std::size_t v = 0; v < views; ++v) {
-    std::vector<Image> row;
-    for (std::size_t i = 0; i < objects; ++i) row.push_back(pictures[i * views + v]);
-    rows.push_back(beside(row));
-  }
-  return stacked(rows);
 }
 
 } // namespace
@@ -130,8 +103,7 @@ int render_verb(const Arguments& arguments) {
     meshes.clear();
   }
   if (!request.own_frame) pictures = render_sides(meshes, sides);
-  const std::string output = is_standard_output(request.output) ? "/dev/stdout" : request.output;
-  write_png(output, arranged(pictures, request.inputs.size(), sides.size()));
+  write_picture(request.output, pictures, request.inputs.size(), sides.size());
   return 0;
 }
 

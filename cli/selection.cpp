@@ -145,7 +145,7 @@ std::vector<std::uint32_t> thinned_rows(const std::vector<Vec3>& points, double 
 
 void keep_rows(PointCloud& cloud, const std::vector<std::uint32_t>& rows) {
   for (Attribute& attribute : cloud.attributes) attribute = gather(attribute, rows);
-  for (auto* index : {&cloud.scan_index, &cloud.sensor_of}) {
+  for (auto* index : {&cloud.scan_index, &cloud.sensor_of, &cloud.cell}) {
     if (index->empty()) continue;
     for (std::size_t i = 0; i < rows.size(); ++i) (*index)[i] = (*index)[rows[i]]; // rows increase
     index->resize(rows.size());

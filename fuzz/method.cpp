@@ -39,11 +39,15 @@ std::string broken_promise(const RandomRun& run, const Result& result) {
   if (!result.report.broken_guarantees.empty()) return "status 6: not " + result.report.broken_guarantees.front();
   if (result.mesh.triangles.empty()) return "no triangles, no error";
   const MeshSummary mesh = validate(result.mesh, {.threads = 1});
-  const bool may_be_open = o.facade || o.trim;
+  const SceneKind kind = result.report.surroundings.kind;
+  const bool may_be_open = (kind == SceneKind::facade && !o.base) || o.trim;
+  if (o.facade && kind != SceneKind::facade) return "not the side that was named";
   if (!may_be_open && !mesh.closed()) return "not closed";
   if (o.manifold && !mesh.manifold()) return "not a manifold";
   if (o.manifold && !mesh.oriented()) return "not oriented";
-  if (mesh.closed() && mesh.oriented() && mesh.volume < 0) return "inward";
+  // Rooms face who scanned them from within.
+  if (mesh.closed() && mesh.oriented() && (kind == SceneKind::interior ? mesh.volume > 0 : mesh.volume < 0))
+    return kind == SceneKind::interior ? "a room faces away from the scanners" : "inward";
   if (o.smooth == 0 && !vertices_are_rows(result.mesh, run.cloud)) return "a vertex is no row of the input";
   if (o.smooth == 0 && result.report.mesh.self_intersections != mesh.self_intersections) return "crossings not told";
   if (o.point_results && result.inlier.size() != run.cloud.points.size()) return "rows without a verdict";

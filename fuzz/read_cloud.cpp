@@ -75,7 +75,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     ReadOptions options;
     options.pcd_viewpoint = mode;
     try {
-      std::vector<std::string> notes;
+      ReadNotes notes;
       check(io::read_cloud(file, options, notes));
     } catch (const Error& error) {
       require(error.kind() == ErrorKind::input && !error.place().empty() && !error.remedy().empty());

@@ -10,7 +10,7 @@ if [ "$version" != "version 14" ]; then
   printf 'format.sh: clang-format 14 is needed, found %s\n' "${version:-none}" >&2
   exit 77
 fi
-mapfile -d '' files < <(find include src cli tools bench tests fuzz \( -name '*.h' -o -name '*.cpp' \) -print0 | sort -z)
+mapfile -d '' files < <(find include src cli python tools bench tests fuzz \( -name '*.h' -o -name '*.cpp' \) -print0 | sort -z)
 if [ "${1:-}" = --check ]; then
   clang-format --dry-run --Werror "${files[@]}"
 else

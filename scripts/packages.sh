@@ -9,6 +9,9 @@ build_packages=(g++ cmake ninja-build libcgal-dev libeigen3-dev libspectra-dev l
   nlohmann-json3-dev libtbb-dev libpng-dev zlib1g-dev libssl-dev libpugixml-dev)
 tool_packages=(libcli11-dev) # of the tools and the benchmarks
 test_packages=("${tool_packages[@]}" libgtest-dev libgmock-dev clang-format)
+# What the Python package is built with, and what its tests need beside it. Open3D comes with 200 MB of others.
+python_packages=(pybind11-dev python3-dev python3-numpy)
+python_test_packages=(python3-pip python3-venv python3-setuptools python3-wheel python3-open3d)
 fuzz_packages=(clang libclang-rt-14-dev)
 
 fail() {
@@ -69,6 +72,6 @@ configure() {
     fresh=(--fresh)
   fi
   # Set each time, so that a ccache that was removed is forgotten.
-  (cd "$repository" && cmake --preset "$preset" "${fresh[@]}" --log-level=WARNING \
+  (cd "$repository" && cmake --preset "$preset" -B "$folder" "${fresh[@]}" --log-level=WARNING \
     -DCMAKE_CXX_COMPILER_LAUNCHER="$(command -v ccache || true)" "$@")
 }

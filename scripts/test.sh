@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Builds everything and runs all tests: format, unit, property, hard clouds, command line, installed package, and the
-# unit tests, the hard clouds and random clouds under the address and undefined-behaviour sanitizers; the short form of
-# scripts/faults.sh.
+# Builds everything and runs all tests: format, unit, property, hard clouds, command line, installed package, and
+# the unit tests, the hard clouds and random clouds under the address and undefined-behaviour sanitizers; the short form
+# of scripts/faults.sh.
 # Real scans are looked for in $EIGENCRUST_DATA, else in ../shared/data; tests skip without them.
+# The Python package has scripts/test_python.sh.
 # Usage: scripts/test.sh [options for ctest], for example scripts/test.sh -R cli
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/packages.sh"

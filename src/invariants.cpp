@@ -121,6 +121,14 @@ Text fault_in_measures(const SampleMeasures& measures, std::size_t samples) {
   return {};
 }
 
+/// With a façade the surface reaches the cube.
+bool is_open_at_cube(const Tetrahedralization& t, const TetrahedronLabels& labels) {
+  bool inside = false, outside = false;
+  for (TetrahedronIndex i{0}; i.value < t.tetrahedra.size(); ++i.value)
+    if (t.touches_cube(i)) (labels[i] == Label::inside ? inside : outside) = true;
+  return inside && outside;
+}
+
 /// One side for each tetrahedron, and a value that agrees.
 Text fault_in_sides(const TetrahedronLabels& labels, const Scene& scene) {
   if (labels.size() != scene.tetrahedralization.tetrahedra.size() || labels.values().size() != labels.size())
@@ -249,7 +257,7 @@ std::string fault_in(const Surface& surface, const Scene& scene, const Tetrahedr
     if (!before.valid() || labels[before] == labels[inside[i]]) return numbered("nothing divided by triangle", i);
     if (!(support[i] >= 0 && support[i] <= 1)) return numbered("no share: the support of triangle", i);
   }
-  if (!options.manifold || options.trim || options.facade) return {};
+  if (!options.manifold || options.trim || is_open_at_cube(t, labels)) return {};
   Text fault;
   const std::vector<Side> sides = sorted_sides(mesh.triangles, mesh.vertices.size(), Threads(1));
   for_each_edge(sides, [&](std::span<const Side> edge) {

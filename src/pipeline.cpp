@@ -4,6 +4,7 @@
 #include <eigencrust/eigencrust.h>
 #include <eigencrust/memory_forecast.h>
 
+#include "crusts/crusts.h"
 #include "evidence/evidence.h"
 #include "invariants.h"
 #include "points/point_results.h"
@@ -16,16 +17,7 @@
 
 namespace eigencrust {
 
-Result reconstruct(const PointCloud& cloud, const Options& options, Observer& observer) {
-  check_options(options);
-  check_cloud(cloud);
-  check_memory(cloud, options.max_memory);
-  Result result;
-  result.report.options = options;
-  Run run(result.report, observer);
-  const Threads threads(options.threads);
-  const Context context{options, run, threads};
-
+void reconstruct_spectral(const PointCloud& cloud, const Context& context, Result& result) {
   // §3: S+ = the samples and the corners of a cube, T = Delaunay(S+), and the two poles of every sample
   auto scene = make_scene(cloud, context);
   EIGENCRUST_SOUND(scene, cloud);
@@ -37,26 +29,40 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   EIGENCRUST_SOUND(poles, scene, evidence);
   // §3.4: all tetrahedra, by the least energy
   auto settled = settle(scene, evidence, poles, context);
-  EIGENCRUST_SOUND(settled, scene, options);
+  EIGENCRUST_SOUND(settled, scene, context.options);
   // §3.5: a manifold
   auto labels = repair(scene, evidence, std::move(settled), context);
-  EIGENCRUST_SOUND(labels, scene, options);
+  EIGENCRUST_SOUND(labels, scene, context.options);
   // §3: the faces between inside and outside
   auto surface = make_surface(cloud, scene, evidence, labels, context);
-  EIGENCRUST_SOUND(surface, scene, labels, options);
+  EIGENCRUST_SOUND(surface, scene, labels, context.options);
   // Which rows lie on it, and which way they look
   auto points = point_results(scene, surface, context);
   // §3.6: smoothing; the vertices get back what the input said of them
   auto mesh = finish(std::move(surface), cloud, scene, context);
-  check(mesh, cloud, scene, {.threads = options.threads}, context);
+  check(mesh, cloud, scene, {.threads = context.options.threads}, context);
 
-  run.end();
   result.mesh = std::move(mesh);
   result.tetrahedralization = std::move(scene.tetrahedralization);
   result.labels = std::move(labels).labels();
   result.inlier = std::move(points.inlier);
   result.confidence = std::move(points.confidence);
   result.normals = std::move(points.normals);
+}
+
+Result reconstruct(const PointCloud& cloud, const Options& options, Observer& observer) {
+  check_options(options);
+  check_cloud(cloud);
+  check_memory(cloud, options.max_memory);
+  Result result;
+  result.report.options = options;
+  Run run(result.report, observer);
+  const Threads threads(options.threads);
+  if (options.method == Method::eigencrust)
+    reconstruct_spectral(cloud, {options, run, threads}, result);
+  else
+    reconstruct_crust(cloud, {options, run, threads}, result);
+  run.end();
   return result;
 }
 

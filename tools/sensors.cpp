@@ -123,4 +123,17 @@ Sensor aim_parallel(const Vec3& target, const Vec3& direction, double radius, do
   return sensor;
 }
 
+std::vector<Sensor> all_around(const Vec3& place, std::uint32_t rays) {
+  std::vector<Sensor> views;
+  for (int axis = 0; axis < 6; ++axis) {
+    Sensor view;
+    view.position = place;
+    view.target = place + direction_of(static_cast<Axis>(axis));
+    view.columns = view.rows = rays;
+    view.field_of_view = 90;
+    views.push_back(view);
+  }
+  return views;
+}
+
 } // namespace eigencrust::tools

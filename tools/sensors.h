@@ -65,4 +65,7 @@ Sensor aim_pinhole(const Vec3& target, const Vec3& direction, double radius, dou
 Sensor aim_parallel(const Vec3& target, const Vec3& direction, double radius, double distance, double spacing,
                     const Vec3& up);
 
+/// Six square views of rays × rays from a place, which together see all around.
+std::vector<Sensor> all_around(const Vec3& place, std::uint32_t rays);
+
 } // namespace eigencrust::tools

@@ -8,10 +8,10 @@
 
 #include "counter_random.h"
 #include "degradations.h"
+#include "open_scenes.h"
 #include "sampling.h"
 #include "sensors.h"
 #include "shapes.h"
-#include "virtual_scanner.h"
 
 namespace eigencrust::bench {
 namespace {
@@ -46,20 +46,6 @@ Part ball(double radius, const Vec3& centre, double spacing) {
   part.truth.volume = 4 * pi / 3 * std::pow(radius, 3);
   part.truth.area = 4 * pi * radius * radius;
   return part;
-}
-
-/// Six square views that together see all around.
-std::vector<tools::Sensor> all_around(const Vec3& place, std::uint32_t rays) {
-  std::vector<tools::Sensor> views;
-  for (const Vec3& d : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
-    tools::Sensor view;
-    view.position = place;
-    view.target = place + d;
-    view.columns = view.rows = rays;
-    view.field_of_view = 90;
-    views.push_back(view);
-  }
-  return views;
 }
 
 } // namespace
@@ -211,28 +197,14 @@ Scene filled_ellipsoid(const Vec3& half_axes, std::size_t count, std::uint64_t s
 }
 
 Scene room(std::span<const Vec3> scanners, bool furnished, double noise, std::uint64_t seed, unsigned threads) {
-  constexpr double cell = 0.1;
-  constexpr std::uint32_t rays = 60; // across each of the six views
-  std::vector<Block> blocks{{{0, 0, 0}, {5, 4, 2.7}}};
+  BlockScan scan{{{{0, 0, 0}, {5, 4, 2.7}}}, {scanners.begin(), scanners.end()}};
+  scan.noise = noise;
   if (furnished) {
-    blocks.push_back({{3.6, 2.4, 0}, {3.9, 2.7, 2.7}, false});     // pillar, from floor to ceiling
-    blocks.push_back({{1.2, 2.4, 0.72}, {2.4, 3.2, 0.78}, false}); // table top
-    blocks.push_back({{1.7, 2.7, 0}, {1.9, 2.9, 0.72}, false});    // its leg
+    scan.blocks.push_back({{3.6, 2.4, 0}, {3.9, 2.7, 2.7}, false});     // pillar, from floor to ceiling
+    scan.blocks.push_back({{1.2, 2.4, 0.72}, {2.4, 3.2, 0.78}, false}); // table top
+    scan.blocks.push_back({{1.7, 2.7, 0}, {1.9, 2.9, 0.72}, false});    // its leg
   }
-  Truth truth = block_part(blocks, cell).truth;
-  std::vector<tools::Sensor> views;
-  for (const Vec3& place : scanners)
-    for (const tools::Sensor& view : all_around(place, rays)) views.push_back(view);
-  tools::ScanOptions options;
-  options.range_noise = noise;
-  options.seed = seed;
-  options.threads = threads;
-  PointCloud cloud = tools::scan(*truth.mesh, views, options);
-  for (const Vec3& place : scanners) cloud.sensors.push_back({place, false});
-  for (const std::uint32_t view : cloud.scan_index) cloud.sensor_of.push_back(view / 6);
-  Scene scene = clean_scene(cloud.points, std::move(truth), threads);
-  scene.cloud = std::move(cloud);
-  return scene;
+  return block_scan(scan, seed, threads);
 }
 
 Scene terrain(unsigned columns, unsigned rows, double cell, std::uint64_t seed, unsigned threads) {

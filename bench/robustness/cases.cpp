@@ -21,6 +21,7 @@ std::vector<Case> all_cases() {
   add_density_cases(cases);
   add_noise_cases(cases);
   add_field_cases(cases);
+  add_open_field_cases(cases);
   add_real_field_cases(cases);
   return cases;
 }

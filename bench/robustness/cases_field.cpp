@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clouds of the kind that people bring, made from formulas: thin walls, sharp parts, contours, noise beside clean
-// parts, tiny bodies, rooms and ground.
+// parts, tiny bodies.
 #include <eigencrust/metrics.h>
 
 #include <array>
@@ -16,15 +16,6 @@ namespace eigencrust::bench {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-Case field_case(std::string name, std::string description, std::function<Scene(Sources&, std::uint64_t)> make) {
-  Case c;
-  c.group = "field";
-  c.name = std::move(name);
-  c.description = std::move(description);
-  c.make = std::move(make);
-  return c;
-}
 
 /// A part with noise in spacings; one piece of that genus.
 Case part_case(std::string name, std::string description, std::function<Part(std::uint64_t)> part, double noise,
@@ -383,48 +374,16 @@ void add_tiny_cases(std::vector<Case>& cases) {
   }
 }
 
-/// faces_scanner: share of the surface's area that faces some sensor.
-void measure_facing(const Scene& scene, const Result& result, Sources&, Figures& figures) {
-  double facing = 0, all = 0;
-  for (const auto& t : result.mesh.triangles) {
-    const auto& v = result.mesh.vertices;
-    const Vec3 normal = cross(v[t[1]] - v[t[0]], v[t[2]] - v[t[0]]);
-    const auto seen_by = [&](const Sensor& s) { return dot(s.place - v[t[0]], normal) > 0; };
-    all += norm(normal);
-    if (std::any_of(scene.cloud.sensors.begin(), scene.cloud.sensors.end(), seen_by)) facing += norm(normal);
-  }
-  figures.set("faces_scanner", facing / all);
-}
-
-/// For information: what is the body is a matter of taste until the method decides it.
-void add_open_cases(std::vector<Case>& cases) {
-  struct Row {
-    const char *name, *description;
-    std::vector<Vec3> scanners;
-    bool furnished;
-    double noise;
-  };
-  for (const Row& row : {Row{"room", "an empty room, the scanner inside", {{2.2, 1.9, 1.4}}, false, 0},
-                         Row{"room-furnished",
-                             "a room with pillar and table, two scanners",
-                             {{2.6, 2.2, 1.5}, {0.6, 3.2, 1.5}},
-                             true,
-                             0.004}}) {
-    Case c = field_case(row.name, row.description, [=](Sources& sources, std::uint64_t seed) {
-      return room(row.scanners, row.furnished, row.noise, seed, sources.threads());
-    });
-    c.measure_more = measure_facing;
-    cases.push_back(std::move(c));
-  }
-  cases.push_back(
-      field_case("terrain", "hills, a height for each square metre, coordinates of a survey",
-                 [](Sources& sources, std::uint64_t seed) { return terrain(60, 60, 1, seed, sources.threads()); }));
-  cases.push_back(field_case(
-      "ball-on-ground", "a ball on flat ground, seen from above",
-      [](Sources& sources, std::uint64_t seed) { return ball_on_ground(12, 1.5, 0.25, seed, sources.threads()); }));
-}
-
 } // namespace
+
+Case field_case(std::string name, std::string description, std::function<Scene(Sources&, std::uint64_t)> make) {
+  Case c;
+  c.group = "field";
+  c.name = std::move(name);
+  c.description = std::move(description);
+  c.make = std::move(make);
+  return c;
+}
 
 void add_field_cases(std::vector<Case>& cases) {
   add_thin_cases(cases);
@@ -434,7 +393,6 @@ void add_field_cases(std::vector<Case>& cases) {
   add_noisy_cases(cases);
   add_filled_cases(cases);
   add_tiny_cases(cases);
-  add_open_cases(cases);
 }
 
 } // namespace eigencrust::bench

@@ -107,7 +107,10 @@ void measure_distances(const Scene& scene, const Result& result, unsigned thread
 
 void measure_volume(const Scene& scene, const Result& result, Figures& figures) {
   if (!(scene.truth.volume > 0)) return;
-  figures.set("volume_error", std::fabs(result.report.mesh.volume / scene.truth.volume - 1));
+  // The free space of rooms is the truth's body; their surface looks into it.
+  const bool rooms = result.report.surroundings.kind == SceneKind::interior;
+  const double volume = rooms ? -result.report.mesh.volume : result.report.mesh.volume;
+  figures.set("volume_error", std::fabs(volume / scene.truth.volume - 1));
 }
 
 void measure_area(const Scene& scene, const Result& result, Figures& figures) {
@@ -150,6 +153,7 @@ void measure_clean_rows(const Scene& scene, const Result& result, Figures& figur
 
 void measure_deep_tetrahedra(const Scene& scene, const Result& result, unsigned threads, Figures& figures) {
   if (scene.truth.inside == nullptr || scene.truth.mesh == nullptr) return;
+  if (result.report.surroundings.kind == SceneKind::interior) return; // inside is what is solid, not the body
   const Tetrahedralization& t = result.tetrahedralization;
   const FarFrom is_deep(*scene.truth.mesh, deep * scene.spacing);
   enum : std::uint8_t { shallow, right, wrong };

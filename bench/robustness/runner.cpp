@@ -47,6 +47,7 @@ void run_preset(const Case& item, const Scene& scene, Sources& sources, const Ru
   Options how = Options::of(run.preset);
   how.threads = sources.threads();
   how.surface = SurfaceKind::samples; // what is kept of the samples is what the table is about
+  if (item.how) item.how(how);
   Result result = reconstruct(scene.cloud, how);
   run.report = result.report;
   measure(scene, result, sources.threads(), run.figures);

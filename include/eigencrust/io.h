@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,14 @@ struct ReadOptions {
   std::vector<std::string> columns{};
   PcdViewpoint pcd_viewpoint = PcdViewpoint::automatic;
   bool sensors = true; ///< false: what the file, and those beside it, say of sensors is left out
+  double scale = 1;    ///< > 0; coordinates and places of sensors are multiplied with it,
+  Vec3 shift{};        ///< then this is added to them
+};
+
+/// What a reader has to say, a sentence each, without the file's name.
+struct ReadNotes {
+  std::vector<std::string> notes;    ///< what was understood, and what could be read in two ways
+  std::vector<std::string> warnings; ///< what was left out, or looks wrong
 };
 
 /// Reads a point cloud. Formats with a signature of their own (ply, e57, las, pcd, ptx, off, npy, npz) are
@@ -41,16 +50,39 @@ struct ReadOptions {
 /// Sensors are taken from the poses of e57 and ptx scans, the VIEWPOINT of a pcd file, the array
 /// sensor_position of an npz file, columns sx sy sz (or x_origin y_origin z_origin, or vp_x vp_y vp_z) of
 /// any format, and from what COLMAP writes beside a ply file: NAME.ply.vis with images.bin or images.txt.
-/// \param notes  if given, gets a sentence for each thing that was dropped or could be read in two ways
+/// Points of which a coordinate means "no data" (-9999 and its like, far from all others) are left out. Points of pcd
+/// files with HEIGHT > 1, of ptx and of ESRI grids get the attributes row and column: see find_grids().
+/// \param notes  if given, gets what there is to say
 /// \param sha256 if given, gets the digest of the bytes that were read; a pipe can be read only once
 /// \throws Error{input} naming file and line (text) or byte offset (binary) when the file is missing,
 ///         truncated, malformed or of an unknown format; memory is never allocated by a count that the
 ///         file claims but does not hold.
 PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options = {},
-                            std::vector<std::string>* notes = nullptr, std::string* sha256 = nullptr);
+                            ReadNotes* notes = nullptr, std::string* sha256 = nullptr);
+
+/// The grids in which scanners or depth cameras saw their points: which point is beside which.
+struct ScanGrids {
+  std::vector<ScanGrid> sizes;     ///< one per scan
+  std::vector<std::uint32_t> cell; ///< per point: row * columns + column in the grid of its scan, or no_index
+};
+/// From the attributes row and column, or rowIndex and columnIndex (in any case), of whole numbers from 0 on. Nothing
+/// where there are none, they are no grid of at least 2 x 2, or two points of a scan share a cell.
+std::optional<ScanGrids> find_grids(const PointCloud& cloud);
+
+/// How far points reach.
+struct Extent {
+  Box3 bounds; ///< of the finite points
+  Box3 bulk;   ///< the same without the outer 2 % on either side of each axis
+};
+Extent extent_of(std::span<const Vec3> points);
+/// A sentence for each thing that is odd about several scans of one scene: sizes that differ as units do, no overlap.
+/// \param names of the inputs, for the sentences; as many as there are extents
+std::vector<std::string> compare_extents(std::span<const std::string> names, std::span<const Extent> extents);
 
 /// The files beside `path` that read_point_cloud(path) reads as well, if they are there now.
 std::vector<std::filesystem::path> companion_files(const std::filesystem::path& path);
+/// NAME.offset.txt: what writing `path` may write beside it, or remove there.
+std::filesystem::path offset_file(const std::filesystem::path& path);
 
 /// Reads a mesh (ply, obj, off, stl); polygons are split into triangle fans. STL corners with equal
 /// coordinates become one vertex.
@@ -85,6 +117,9 @@ struct WriteOptions {
   double spacing = 0;                ///< median sample spacing; 0: the median edge length is taken
   std::vector<std::string> comments; ///< written where the format has room for them
   std::string format{};              ///< "ply", "obj" ...; empty: that of the name's extension
+  /// What was added to the coordinates of the input. Written as a comment; formats without any (stl, csv, las), and
+  /// those that need an offset of their own, get a file NAME.offset.txt with the numbers that lead back.
+  Vec3 shift{};
 };
 
 struct WriteResult {
@@ -99,7 +134,7 @@ struct WriteResult {
 /// PLY keeps every attribute under its own name and type (an attribute named x, y or z, or twice, gets
 /// a suffix). OBJ and OFF keep colours only, STL nothing; what is lost is listed in the warnings.
 /// STL knows float32 only: where that would move a vertex by more than 1e-3 of the spacing the box's
-/// centre is subtracted and reported as `offset`.
+/// centre is subtracted, reported as `offset` and written into NAME.offset.txt.
 /// \throws Error{input} (unwritable, unknown extension), Error{guarantee} when float32 would make two
 ///         vertices equal even with an offset.
 WriteResult write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options = {});
@@ -141,6 +176,9 @@ class OutputFiles {
   void put_in_place();
 
  private:
+  /// The file with it beside `path`; where it is 0, one that an earlier run left there goes.
+  void add_offset(const std::filesystem::path& path, const Vec3& offset, std::vector<std::string>& warnings);
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

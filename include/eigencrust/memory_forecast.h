@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How much memory and time reconstruct() will take, told from the cloud alone. docs/decisions/0018.
+/// What is told of a cloud alone: how much memory and time reconstruct() will take (docs/decisions/0018), and what is
+/// in it.
 #pragma once
 
 #include <cstdint>
@@ -45,5 +46,9 @@ std::uint64_t parse_memory_size(const std::string& text);
 
 /// Bytes for people: "3.3 GB", powers of 1000.
 std::string describe_bytes(std::uint64_t bytes);
+
+/// What is in a cloud, as `eigencrust info --json` prints it but for the files: counts, scans, sensors, attributes,
+/// spacing, bounds, forecast. A cloud that no surface can be made of says why under "unusable".
+std::string info_json(const PointCloud& cloud, unsigned threads = 0);
 
 } // namespace eigencrust

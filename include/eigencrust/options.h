@@ -16,6 +16,15 @@ enum class Preset : std::uint8_t {
   robust, ///< the measured best
   paper   ///< Kolluri, Shewchuk and O'Brien (2004) to the letter
 };
+/// Which surface is made of the tetrahedra or poles. The others are what the paper is compared with (docs/crusts.md).
+enum class Method : std::uint8_t {
+  eigencrust,
+  powercrust,          ///< Amenta, Choi, Kolluri 2001
+  spectral_powercrust, ///< the same cells, labelled by the first partition (§3.4)
+  tight_cocone,        ///< Dey, Goswami 2003
+  robust_cocone,       ///< Dey, Goswami 2004
+  spectral_cocone      ///< the samples that Robust Cocone keeps, then eigencrust
+};
 /// What the pole pairs of the pole graph weigh (§3.1).
 enum class Weights : std::uint8_t {
   evidence, ///< those of isolated samples count only as far as their Voronoi cells are long
@@ -55,7 +64,6 @@ enum class ManifoldRule : std::uint8_t {
   cheapest, ///< the strand, component or path, inside or outside, with the least certain labels
   paper     ///< inside tetrahedra only: all strands but the strongest, all components but the pole's
 };
-enum class Axis : std::uint8_t { plus_x, minus_x, plus_y, minus_y, plus_z, minus_z };
 
 /// A length that may be found out from the cloud.
 struct LengthChoice {
@@ -99,6 +107,7 @@ struct SolverOptions {
 /// What one call of reconstruct() may be told. The defaults are those of the preset `robust`.
 struct Options {
   Preset preset = Preset::robust;
+  Method method = Method::eigencrust;
   SolverOptions solver;
   /// docs/decisions/0013.
   Weights weights = Weights::evidence;
@@ -130,9 +139,14 @@ struct Options {
   std::optional<double> crossing_depth;
   /// One-sided scan: outside is in front, along this direction (§3.1). The result is then open.
   std::optional<Axis> facade;
-  /// Find out from the sensors whether the scan is one-sided; Report::one_sided. That makes trimming stricter and
-  /// changes no label: docs/decisions/0020.
+  /// Find out what was scanned. From the sensors: whether they stand among the samples, in rooms
+  /// (Report::surroundings), and whether all lie on one side (Report::one_sided; that makes trimming stricter and
+  /// changes no label, docs/decisions/0020). Without any: whether the samples lie like ground with what stands on it;
+  /// that is a façade along +z. Not with the paper's weights. docs/decisions/0032.
   bool detect_facade = true;
+  /// Close what was seen from one side with a flat base behind it; the surface's rim becomes its outline. Not with
+  /// `trim`.
+  bool base = false;
   /// Leave out triangles that the samples do not bear out, see unsupported_triangles(). The result is then open.
   bool trim = false;
   /// Also say of every input row whether it belongs to the surface, and its normal: Result::inlier,
@@ -149,6 +163,7 @@ struct Options {
 
 // Names as the command line and the report write them.
 std::string to_string(Preset value);
+std::string to_string(Method value);
 std::string to_string(Weights value);
 std::string to_string(Eigensolver value);
 std::string to_string(SecondStage value);
@@ -158,11 +173,13 @@ std::string to_string(ManifoldRule value);
 std::string to_string(SurfaceKind value);
 std::string to_string(Smoothing value);
 std::string to_string(Axis value);
+std::string to_string(SceneKind value);
 std::string to_string(const LengthChoice& value);
 std::string to_string(const KeepComponents& value);
 
 // The reverse. \throws Error{usage} naming the accepted values.
 Preset parse_preset(const std::string& text);
+Method parse_method(const std::string& text);
 Weights parse_weights(const std::string& text);
 Eigensolver parse_eigensolver(const std::string& text);
 SecondStage parse_second_stage(const std::string& text);

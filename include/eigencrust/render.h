@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -65,6 +66,9 @@ Image stacked(const std::vector<Image>& images);
 
 /// Puts pictures side by side, for comparisons. \throws Error{usage} unless all have one height.
 Image beside(const std::vector<Image>& images);
+
+/// The bytes of a PNG. \throws Error{input} for a picture whose rows do not fit its size
+std::vector<std::byte> encode_png(const Image& image);
 
 /// Writes a PNG, atomically. \throws Error{input}
 void write_png(const std::filesystem::path& path, const Image& image);

@@ -62,6 +62,8 @@ struct Report {
   std::uint64_t sight_lines = 0;        ///< from samples to their sensors; 0: no sensor is known
   std::uint64_t contradicting_rays = 0; ///< those that cross what was found to be inside
   std::optional<OneSided> one_sided;    ///< the sensors all lie on one side
+  Surroundings surroundings;            ///< what was scanned
+  std::optional<Base> base;             ///< where Options::base was asked for
   double unsupported_area = 0;          ///< share of the surface's area that no samples bear out, before trimming
   std::optional<MovedReport> moved;     ///< none: every vertex is an input point
   double seconds = 0;

@@ -53,11 +53,12 @@ Poles find_poles(const Tetrahedralization& tetrahedralization, const VertexStars
                  Weights weights, const Threads& threads);
 
 /// §3.1: what is known beforehand. Tetrahedra at the cube are outside (with a façade: those at its front;
-/// those whose corners are all at the back are inside), as are those that hold the user's points.
+/// those whose corners are all at the back are inside; around rooms all are inside), as are those that hold the
+/// user's points.
 /// \throws Error{usage} when one tetrahedron is named both, or an inside point lies at or beyond the cube
 Labels known_labels(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
                     std::span<const Vec3> outside_points, std::span<const Vec3> inside_points,
-                    std::optional<Axis> facade, const Threads& threads);
+                    const Surroundings& surroundings, const Threads& threads);
 
 /// What the scanner looked along when it saw a sample.
 struct SightLine {

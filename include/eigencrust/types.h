@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -34,6 +35,14 @@ constexpr double squared_norm(const Vec3& a) { return dot(a, a); }
 inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
 inline double distance(const Vec3& a, const Vec3& b) { return norm(a - b); }
 inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+
+enum class Axis : std::uint8_t { plus_x, minus_x, plus_y, minus_y, plus_z, minus_z };
+/// The unit vector of an axis.
+constexpr Vec3 direction_of(Axis axis) {
+  const double sign = static_cast<int>(axis) % 2 == 0 ? 1 : -1;
+  const int k = static_cast<int>(axis) / 2;
+  return {k == 0 ? sign : 0, k == 1 ? sign : 0, k == 2 ? sign : 0};
+}
 
 /// Axis-aligned bounding box. Empty (min > max) until something is added.
 struct Box3 {
@@ -146,9 +155,18 @@ struct Sensor {
   friend constexpr auto operator<=>(const Sensor&, const Sensor&) = default;
 };
 
-/// Unorganized points with whatever the files said of them.
+/// The grid in which a scanner or depth camera saw its points; its cells are numbered row after row.
+struct ScanGrid {
+  std::uint32_t columns = 0, rows = 0; ///< 0 and 0: the scan has no grid; else columns * rows fits 32 bits
+
+  friend constexpr auto operator<=>(const ScanGrid&, const ScanGrid&) = default;
+};
+
+/// Points with whatever the files said of them.
 /// Invariants: every attribute has points.size() rows; scan_index is empty or has points.size() entries;
-/// so has sensor_of, and each entry is below sensors.size() or no_sensor; places are finite.
+/// so has sensor_of, and each entry is below sensors.size() or no_sensor; places are finite. So has cell, and each
+/// entry is no_index or a cell of the grid of the point's scan, which then exists; grids has one entry per scan or
+/// none.
 struct PointCloud {
   static constexpr std::uint32_t no_sensor = no_index;
 
@@ -157,6 +175,8 @@ struct PointCloud {
   std::vector<std::uint32_t> scan_index;  ///< which scan each point came from; empty: one scan, or unknown
   std::vector<Sensor> sensors{};          ///< in the order of the files; equal ones may occur
   std::vector<std::uint32_t> sensor_of{}; ///< which sensor saw each point; empty: none is known
+  std::vector<ScanGrid> grids{};          ///< of each scan; empty: no scan is known to have one
+  std::vector<std::uint32_t> cell{}; ///< row * columns + column in the grid of the point's scan; empty: none is known
 };
 
 /// Indexed triangles; counter-clockwise seen from outside. Indices are 0-based into vertices.
@@ -323,10 +343,29 @@ struct Partition {
   SolverStatus status = SolverStatus::trivial;
 };
 
+/// What was scanned; what lies beyond all samples follows from it (not in the paper; docs/decisions/0032).
+enum class SceneKind : std::uint8_t {
+  body,     ///< something seen from outside: beyond the samples there is nothing
+  interior, ///< rooms, seen from sensors among the samples: beyond the walls is the solid
+  facade    ///< ground or a façade: solid behind, the surface is open at the rim
+};
+struct Surroundings {
+  SceneKind kind = SceneKind::body;
+  Axis front = Axis::plus_z;           ///< of a façade: the side it was seen from
+  std::optional<Axis> likely_facade{}; ///< a body whose samples lie like a façade, or nearly so, seen from here
+};
+
 /// A scan from one side (not in the paper; docs/decisions/0020): all lines within 60° of their mean direction.
 struct OneSided {
   Vec3 direction;          ///< unit vector, surface -> scanners
   double widest_angle = 0; ///< between it and a line, radians
+};
+
+/// The flat base that closes what was seen from one side.
+struct Base {
+  std::uint32_t vertices = 0;  ///< of the mesh, the last ones
+  double level = 0;            ///< its coordinate on the façade's axis
+  double volume_above_rim = 0; ///< between the surface and the plane through its rim; what is below counts negative
 };
 
 /// One piece of surface that was not kept, so that nothing is lost silently.

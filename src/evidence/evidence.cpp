@@ -2,15 +2,17 @@
 #include "evidence/evidence.h"
 #include "evidence/contradictions.h"
 #include "evidence/named_points.h"
+#include "evidence/surroundings.h"
 
 #include <algorithm>
 
 namespace eigencrust {
 namespace {
 
-Labels named_labels(const Scene& scene, const Options& options, const Threads& threads) {
+Labels named_labels(const Scene& scene, const Surroundings& surroundings, const Options& options,
+                    const Threads& threads) {
   const Tetrahedralization& t = scene.tetrahedralization;
-  Labels labels = known_labels(t, scene.stars, options.outside_points, options.inside_points, options.facade, threads);
+  Labels labels = known_labels(t, scene.stars, options.outside_points, options.inside_points, surroundings, threads);
   name_poles(t, scene.poles, options.outside_points, options.inside_points, threads, labels);
   return labels;
 }
@@ -44,7 +46,12 @@ LinesOfSight follow_lines(const PointCloud& cloud, const Scene& scene, const Lab
 Evidence gather_evidence(const PointCloud& cloud, const Scene& scene, const Context& context) {
   const auto& [options, run, threads] = context;
   Evidence evidence;
-  evidence.named = run.stage("evidence", [&] { return named_labels(scene, options, threads); });
+  KnownBeforehand known = run.stage("evidence", [&] {
+    const Surroundings surroundings = surroundings_of(cloud, scene, options, threads);
+    return KnownBeforehand{surroundings, named_labels(scene, surroundings, options, threads)};
+  });
+  evidence.surroundings = known.surroundings;
+  evidence.named = std::move(known.named);
   evidence.labels = evidence.named;
   if (cloud.sensor_of.empty()) return evidence;
   LinesOfSight sight =
@@ -58,7 +65,7 @@ Evidence gather_evidence(const PointCloud& cloud, const Scene& scene, const Cont
 
 Evidence with_points(const Evidence& before, const Scene& scene, const Context& context) {
   Evidence evidence = before;
-  evidence.named = named_labels(scene, context.options, context.threads);
+  evidence.named = named_labels(scene, before.surroundings, context.options, context.threads);
   for (std::uint32_t i = 0; i < evidence.named.size(); ++i) {
     const Label label = evidence.named.raw()[i];
     if (label != before.named.raw()[i]) evidence.labels.raw()[i] = label;

@@ -20,7 +20,14 @@ struct LinesOfSight {
   std::optional<OneSided> one_sided;
 };
 
+/// What is known without the lines of sight.
+struct KnownBeforehand {
+  Surroundings surroundings;
+  Labels named; ///< from the cube and the user's points
+};
+
 struct Evidence {
+  Surroundings surroundings;
   Labels named;  ///< from the cube, the façade and the user's points
   Labels labels; ///< and from the lines of sight
   /// The lines do not change when points are named: those of a session are shared. Null: no sensor is known.

@@ -41,34 +41,19 @@ std::vector<TetrahedronIndex> tetrahedra_at(const Tetrahedralization& t, const V
   return found;
 }
 
-double along(Axis axis, const Vec3& p) {
-  switch (axis) {
-    case Axis::plus_x:
-      return p.x;
-    case Axis::minus_x:
-      return -p.x;
-    case Axis::plus_y:
-      return p.y;
-    case Axis::minus_y:
-      return -p.y;
-    case Axis::plus_z:
-      return p.z;
-    case Axis::minus_z:
-      return -p.z;
-  }
-  return 0;
-}
-
-/// A tetrahedron at the cube: outside, but with a façade inside when all of its corners are at the back.
-Label label_at_cube(const Tetrahedralization& t, TetrahedronIndex tetrahedron, std::optional<Axis> facade) {
-  bool corner = false, front = false;
+/// A tetrahedron at the cube: outside around a body, inside around rooms; with a façade inside when all of its corners
+/// are at the back.
+Label label_at_cube(const Tetrahedralization& t, TetrahedronIndex tetrahedron, const Surroundings& surroundings) {
+  const Vec3 front = direction_of(surroundings.front);
+  bool corner = false, at_front = false;
   for (const SampleIndex s : t.tetrahedra[tetrahedron]) {
     if (!t.is_corner(s)) continue;
     corner = true;
-    front = front || (facade && along(*facade, t.positions[s]) > 0);
+    at_front = at_front || dot(front, t.positions[s]) > 0;
   }
   if (!corner) return Label::unlabelled;
-  return !facade || front ? Label::outside : Label::inside;
+  if (surroundings.kind == SceneKind::interior) return Label::inside;
+  return surroundings.kind == SceneKind::body || at_front ? Label::outside : Label::inside;
 }
 
 /// The user's points of one side.
@@ -92,16 +77,19 @@ class NamedPoints {
 } // namespace
 
 Labels known_labels(const Tetrahedralization& t, const VertexStars& stars, std::span<const Vec3> outside_points,
-                    std::span<const Vec3> inside_points, std::optional<Axis> facade, const Threads& threads) {
+                    std::span<const Vec3> inside_points, const Surroundings& surroundings, const Threads& threads) {
   Labels labels(t.tetrahedra.size());
   for_each_index(threads, t.tetrahedra.size(), [&](std::size_t i) {
-    labels.raw()[i] = label_at_cube(t, TetrahedronIndex{static_cast<std::uint32_t>(i)}, facade);
+    labels.raw()[i] = label_at_cube(t, TetrahedronIndex{static_cast<std::uint32_t>(i)}, surroundings);
   });
   for (const Vec3& p : outside_points)
     for (const TetrahedronIndex i : tetrahedra_at(t, stars, p - t.origin)) {
-      if (facade && labels[i] == Label::inside)
+      if (surroundings.kind == SceneKind::facade && labels[i] == Label::inside)
         throw Error(ErrorKind::usage, "evidence", "the outside point " + show(p) + " lies behind the facade",
                     "move the point or turn the facade's axis");
+      if (surroundings.kind == SceneKind::interior && labels[i] == Label::inside)
+        throw Error(ErrorKind::usage, "evidence", "the outside point " + show(p) + " lies beyond the walls",
+                    "give a point in the free space of the rooms");
       labels[i] = Label::outside;
     }
   for (const Vec3& p : inside_points) {

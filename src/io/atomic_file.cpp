@@ -11,6 +11,7 @@
 
 #include <eigencrust/io.h>
 
+#include "io/offset_file.h"
 #include "io/system_call.h"
 #include "io/temporary_file.h"
 
@@ -119,6 +120,7 @@ fs::path follow_links(const fs::path& path) {
 
 struct OutputFiles::Impl {
   std::vector<std::unique_ptr<io::TemporaryFile>> files;
+  std::vector<fs::path> stale; ///< files of offsets beside results that need none
 };
 
 OutputFiles::OutputFiles() : impl_(std::make_unique<Impl>()) {}
@@ -138,8 +140,24 @@ void OutputFiles::add(const fs::path& path, const std::function<void(std::ostrea
   fill(impl_->files.back()->descriptor(), write, path);
 }
 
+void OutputFiles::add_offset(const fs::path& path, const Vec3& offset, std::vector<std::string>& warnings) {
+  struct stat status {};
+  const bool special = stat(path.c_str(), &status) == 0 && is_special(path, status);
+  if (special && offset != Vec3{})
+    warnings.push_back("no file can be beside " + path.string() + " to say so: add " + io::three_numbers(offset) +
+                       " to its coordinates to return to those of the input");
+  if (special) return;
+  if (offset != Vec3{})
+    add(offset_file(path), [&](std::ostream& out) { out << io::offset_text(path, offset); });
+  else
+    impl_->stale.push_back(offset_file(path));
+}
+
 void OutputFiles::put_in_place() {
   for (const auto& file : impl_->files) file->put_in_place();
+  std::error_code ignored;
+  for (const fs::path& file : impl_->stale)
+    if (io::is_offset_file(file)) fs::remove(file, ignored);
 }
 
 void write_file_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write) {

@@ -8,6 +8,7 @@
 #include <eigencrust/error.h>
 #include <eigencrust/io.h>
 
+#include "io/colours.h"
 #include "io/pose.h"
 #include "io/text.h"
 #include "surface/attributes.h"
@@ -108,7 +109,8 @@ void append_attributes(PointCloud& cloud, PointCloud& next) {
   }
 }
 
-void append_scan_index(PointCloud& cloud, const PointCloud& next) {
+/// \return what was added to the scan numbers of `next`
+std::uint32_t append_scan_index(PointCloud& cloud, const PointCloud& next) {
   const std::size_t rows = cloud.points.size();
   if (cloud.scan_index.empty()) cloud.scan_index.assign(rows, 0);
   const std::uint64_t first = 1 + std::uint64_t{*std::max_element(cloud.scan_index.begin(), cloud.scan_index.end())};
@@ -120,6 +122,23 @@ void append_scan_index(PointCloud& cloud, const PointCloud& next) {
   cloud.scan_index.reserve(rows + next.points.size());
   if (next.scan_index.empty()) cloud.scan_index.resize(rows + next.points.size(), shift);
   for (const std::uint32_t scan : next.scan_index) cloud.scan_index.push_back(scan + shift);
+  return shift;
+}
+
+/// \param shift of the scan numbers of `next`
+void append_cells(PointCloud& cloud, const PointCloud& next, std::uint32_t shift) {
+  if (cloud.cell.empty() && next.cell.empty()) return;
+  constexpr std::uint32_t most_scans = 1 << 20; // scan numbers may be any; grids are for those who count them
+  if (shift > most_scans) {
+    cloud.cell.clear();
+    cloud.grids.clear();
+    return;
+  }
+  cloud.cell.resize(cloud.points.size(), no_index);
+  cloud.cell.insert(cloud.cell.end(), next.cell.begin(), next.cell.end());
+  cloud.cell.resize(cloud.points.size() + next.points.size(), no_index);
+  cloud.grids.resize(shift);
+  cloud.grids.insert(cloud.grids.end(), next.grids.begin(), next.grids.end());
 }
 
 } // namespace
@@ -130,7 +149,7 @@ void append_scan(PointCloud& cloud, PointCloud next) {
     cloud = std::move(next);
     return;
   }
-  append_scan_index(cloud, next);
+  append_cells(cloud, next, append_scan_index(cloud, next));
   io::append_rows(cloud, std::move(next));
 }
 
@@ -166,56 +185,29 @@ std::string UniqueNames::operator()(const std::string& name) {
   }
 }
 
-std::vector<Attribute> colour_attributes(std::span<const double> rgb, std::size_t channels, bool whole_numbers) {
-  static constexpr std::array<const char*, 4> names = {"red", "green", "blue", "alpha"};
-  constexpr double printed = 5e-4; // half a unit of the third digit
-  const auto is_byte = [](double v) { return v >= 0 && v <= 255 && v == std::floor(v); };
-  const auto is_fraction = [](double v) {
-    return v >= 0 && v <= 1 && std::abs(v - std::nearbyint(255 * v) / 255) <= printed;
-  };
-  const bool bytes = whole_numbers && std::all_of(rgb.begin(), rgb.end(), is_byte);
-  const bool fractions = !bytes && std::all_of(rgb.begin(), rgb.end(), is_fraction);
-  std::vector<Attribute> result;
-  std::vector<double> channel(rgb.size() / channels);
-  for (std::size_t c = 0; c < channels; ++c) {
-    for (std::size_t i = 0; i < channel.size(); ++i)
-      channel[i] = fractions ? std::nearbyint(255 * rgb[i * channels + c]) : rgb[i * channels + c];
-    result.push_back(make_attribute(names[c], bytes || fractions ? ScalarType::uint8 : ScalarType::float32, channel));
-  }
-  return result;
-}
-
-std::optional<ColourColumns> find_colours(const std::vector<Attribute>& attributes) {
-  const auto find = [&](const char* name) -> const Attribute* {
-    for (const Attribute& attribute : attributes)
-      if (!attribute.is_list && equal_ignoring_case(attribute.name, name)) return &attribute;
-    return nullptr;
-  };
-  ColourColumns colours{{find("red"), find("green"), find("blue")}, find("alpha")};
-  if (!colours.rgb[0] || !colours.rgb[1] || !colours.rgb[2])
-    colours = {{find("r"), find("g"), find("b")}, colours.alpha};
-  if (!colours.rgb[0] || !colours.rgb[1] || !colours.rgb[2]) return std::nullopt;
-  return colours;
-}
-
-double colour_fraction(const Attribute& channel, std::size_t row) {
-  const double value = attribute_value(channel, row);
-  return with_scalar(channel.type, [&]<class T>(std::type_identity<T>) {
-    if constexpr (std::is_integral_v<T>) return value / static_cast<double>(std::numeric_limits<T>::max());
-    return value;
-  });
-}
-
-void warn_lost_attributes(const std::vector<Attribute>& attributes, const std::string& of, std::size_t colours_kept,
-                          const std::string& format, std::vector<std::string>& warnings) {
-  const auto colours = colours_kept > 0 ? find_colours(attributes) : std::nullopt;
+void warn_lost_attributes(const std::vector<Attribute>& attributes, const std::string& of, const ViewerColours* colours,
+                          bool with_alpha, const std::string& format, std::vector<std::string>& warnings,
+                          const std::vector<const Attribute*>& kept) {
   std::string names;
   for (const Attribute& attribute : attributes) {
-    if (colours && std::find(colours->rgb.begin(), colours->rgb.end(), &attribute) != colours->rgb.end()) continue;
-    if (colours && colours_kept == 4 && &attribute == colours->alpha) continue;
+    const bool is_colour = colours != nullptr && colours->is_source(attribute);
+    const bool is_alpha = is_colour && colours->source.size() == 4 && colours->source.back() == &attribute;
+    if (is_colour && (with_alpha || !is_alpha)) continue;
+    if (std::find(kept.begin(), kept.end(), &attribute) != kept.end()) continue;
     names += (names.empty() ? "" : ", ") + attribute.name;
   }
   if (!names.empty()) warnings.push_back(format + " has no room for these attributes of the " + of + ": " + names);
+}
+
+void keep_rows(PointCloud& cloud, std::span<const std::uint32_t> rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) cloud.points[i] = cloud.points[rows[i]];
+  cloud.points.resize(rows.size());
+  for (Attribute& attribute : cloud.attributes) attribute = gather(attribute, rows);
+  for (auto* index : {&cloud.scan_index, &cloud.sensor_of}) {
+    if (index->empty()) continue;
+    for (std::size_t i = 0; i < rows.size(); ++i) (*index)[i] = (*index)[rows[i]];
+    index->resize(rows.size());
+  }
 }
 
 void check_attributes(const std::vector<Attribute>& attributes, std::size_t rows, const std::string& of) {

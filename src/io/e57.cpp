@@ -7,6 +7,7 @@
 #include <eigencrust/io.h>
 
 #include "io/attributes.h"
+#include "io/colours.h"
 #include "io/e57_columns.h"
 #include "io/e57_header.h"
 #include "io/e57_pages.h"
@@ -138,12 +139,6 @@ std::vector<std::uint32_t> valid_rows(const std::vector<double>& invalid_state) 
   for (std::size_t i = 0; i < invalid_state.size(); ++i)
     if (invalid_state[i] == 0) rows.push_back(static_cast<std::uint32_t>(i));
   return rows;
-}
-
-void keep_rows(PointCloud& cloud, const std::vector<std::uint32_t>& rows) {
-  for (std::size_t i = 0; i < rows.size(); ++i) cloud.points[i] = cloud.points[rows[i]];
-  cloud.points.resize(rows.size());
-  for (Attribute& attribute : cloud.attributes) attribute = gather(attribute, rows);
 }
 
 /// One scan in the frame of the file. \param dropped is increased by the number of invalid points

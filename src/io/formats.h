@@ -16,13 +16,14 @@ namespace eigencrust::io {
 // Readers. All throw Error{input} as io.h says.
 PointCloud read_ply_cloud(const FileContent& file);
 TriangleMesh read_ply_mesh(const FileContent& file);
-PointCloud read_xyz(const FileContent& file, const ReadOptions& options);
+PointCloud read_xyz(const FileContent& file, const ReadOptions& options, ReadNotes& notes);
+PointCloud read_esri_grid(const FileContent& file, ReadNotes& notes);
 /// The rows of an .xyz file under the name .pts; rows may begin with the letter p, after a header of
 /// rows that begin with d, s or g (Hoppe's point files).
-PointCloud read_lettered_xyz(const FileContent& file, const ReadOptions& options);
-PointCloud read_pts(const FileContent& file, const ReadOptions& options);
+PointCloud read_lettered_xyz(const FileContent& file, const ReadOptions& options, ReadNotes& notes);
+PointCloud read_pts(const FileContent& file, const ReadOptions& options, ReadNotes& notes);
 PointCloud read_e57(const FileContent& file, std::vector<std::string>& notes);
-PointCloud read_ptx(const FileContent& file, std::vector<std::string>& notes);
+PointCloud read_ptx(const FileContent& file, ReadNotes& notes);
 PointCloud read_pcd(const FileContent& file, const ReadOptions& options, std::vector<std::string>& notes);
 PointCloud read_las(const FileContent& file, std::vector<std::string>& notes);
 PointCloud read_npy(const FileContent& file);
@@ -34,9 +35,13 @@ TriangleMesh read_stl(const FileContent& file);
 // Whether the file begins as no other format does.
 bool looks_like_ptx(const FileContent& file);
 bool looks_like_pcd(const FileContent& file);
+bool looks_like_esri_grid(const FileContent& file);
+
+/// \throws Error{input} where the file is of a kind that other programs know: says which, and what to do
+void reject_foreign(const FileContent& file);
 
 /// What read_point_cloud and read_mesh do, once the bytes are there; the name's extension counts.
-PointCloud read_cloud(const FileContent& file, const ReadOptions& options, std::vector<std::string>& notes);
+PointCloud read_cloud(const FileContent& file, const ReadOptions& options, ReadNotes& notes);
 TriangleMesh read_mesh(const FileContent& file);
 
 // Writers. They check and choose first (prepare), so that nothing is created in vain, and leave what

@@ -9,6 +9,7 @@
 
 #include "io/attributes.h"
 #include "io/binary_output.h"
+#include "io/colours.h"
 #include "io/formats.h"
 #include "io/las_header.h"
 #include "io/precision.h"
@@ -18,11 +19,13 @@ namespace eigencrust::io {
 namespace {
 
 constexpr std::size_t header_bytes = 375, record_head = 54, description_bytes = 192, name_bytes = 32;
+constexpr double most_colour = 65535;
 constexpr std::size_t most_extras = 0xffff / description_bytes; ///< what one record can describe
 
 struct Column {
-  const Attribute* attribute;
-  LasField field; ///< bits > 0: only these of one byte
+  const Attribute* attribute; ///< null: of the colour
+  LasField field;             ///< bits > 0: only these of one byte
+  std::size_t channel;        ///< 0 to 2 where it is one of red, green and blue
 };
 struct Extra {
   const Attribute* attribute;
@@ -33,11 +36,17 @@ struct Layout {
   unsigned format = 6;
   Vec3 scale, offset;
   std::vector<std::uint32_t> rows; ///< with finite coordinates
+  std::optional<ViewerColours> colours;
   std::vector<Column> columns;
   std::vector<Extra> extras;
   bool has_returns = false;
   std::size_t record_bytes = 0;
 };
+
+/// 0 to 2 for red, green and blue, 3 for all others.
+std::size_t channel_of(std::string_view name) {
+  return name == "red" ? 0 : name == "green" ? 1 : name == "blue" ? 2 : 3;
+}
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -68,31 +77,40 @@ const Attribute* find_fitting(const PointCloud& cloud, const LasField& field) {
   return nullptr;
 }
 
-/// Colours of the format are 16 bits wide; bytes are stretched, as the specification asks for.
-bool are_colours(const PointCloud& cloud) {
-  const auto colours = find_colours(cloud.attributes);
-  return colours && std::all_of(colours->rgb.begin(), colours->rgb.end(), [](const Attribute* channel) {
-           return channel->type == ScalarType::uint8 || channel->type == ScalarType::uint16;
-         });
+/// Are the columns red, green and blue of bytes, or of 16 bits that are used? Then the fields hold all that they say.
+bool are_held(const ViewerColours& colours) {
+  constexpr std::array names{"red", "green", "blue"};
+  if (colours.plain) return true;
+  bool held = colours.source.size() >= 3;
+  for (std::size_t k = 0; held && k < 3; ++k) {
+    const Attribute& a = *colours.source[k];
+    const bool wide = a.type == ScalarType::uint16 && colours.share == 1.0 / most_colour;
+    held = a.name == names[k] && (wide || a.type == ScalarType::uint8);
+  }
+  return held;
 }
 
 void choose_columns(const PointCloud& cloud, Layout& layout, std::vector<std::string>& warnings) {
   std::vector<const Attribute*> placed;
-  const auto colours = find_colours(cloud.attributes);
-  if (are_colours(cloud)) {
+  const std::optional<ViewerColours>& colours = layout.colours = find_colours(cloud.attributes);
+  const bool held = colours && are_held(*colours);
+  if (colours) {
     layout.format = 7;
     for (const LasField& field : las_fields(8, 4))
       if (std::string_view(field.name) == "nir" && find_fitting(cloud, field) != nullptr) layout.format = 8;
   }
   for (const LasField& field : las_fields(layout.format, 4)) {
     const std::string_view name = field.name;
-    const Attribute* a = nullptr;
-    for (std::size_t c = 0; c < 3 && layout.format >= 7; ++c)
-      if (name == std::array{"red", "green", "blue"}[c]) a = colours->rgb[c];
-    if (a == nullptr) a = find_fitting(cloud, field);
+    const std::size_t channel = channel_of(name);
+    if (channel < 3) {
+      layout.columns.push_back({nullptr, field, channel});
+      if (held) placed.push_back(colours->source[channel]);
+      continue;
+    }
+    const Attribute* a = find_fitting(cloud, field);
     if (a == nullptr) continue;
     layout.has_returns = layout.has_returns || name == "return_number";
-    layout.columns.push_back({a, field});
+    layout.columns.push_back({a, field, channel});
     placed.push_back(a);
   }
   layout.record_bytes = las_record_bytes(layout.format);
@@ -103,7 +121,8 @@ void choose_columns(const PointCloud& cloud, Layout& layout, std::vector<std::st
       warnings.push_back("LAS has no room for the attribute " + a.name);
       continue;
     }
-    layout.extras.push_back({&a, unique(a.name.substr(0, name_bytes - 4))});
+    const bool is_taken = colours && channel_of(lower(a.name)) < 3;
+    layout.extras.push_back({&a, unique(is_taken ? lower(a.name) + "_original" : a.name.substr(0, name_bytes - 4))});
     if (layout.extras.back().name != a.name)
       warnings.push_back("attribute '" + a.name + "' is written as '" + layout.extras.back().name + "'");
     layout.record_bytes += size_of(a.type);
@@ -252,18 +271,19 @@ Bytes make_header(const PointCloud& cloud, const Layout& layout, const WriteOpti
   return header;
 }
 
-void put_column(Bytes& record, const Column& column, std::size_t row) {
-  const auto& [attribute, field] = column;
+void put_column(Bytes& record, const Layout& layout, const Column& column, std::size_t row) {
+  const auto& [attribute, field, channel] = column;
+  if (channel < 3) { // bytes are stretched, as the specification asks for: 255 -> 65535
+    record.put(field.offset,
+               static_cast<std::uint16_t>(std::lround(most_colour * layout.colours->fraction(channel, row))));
+    return;
+  }
   const double value = attribute_value(*attribute, row);
   if (field.bits > 0) {
     record.put_bits(field.offset, field.shift, static_cast<unsigned>(value));
     return;
   }
-  const bool is_colour = std::string_view(field.name) == "red" || std::string_view(field.name) == "green" ||
-                         std::string_view(field.name) == "blue";
-  const double stretch = is_colour && attribute->type == ScalarType::uint8 ? 257 : 1; // 255 -> 65535
-  with_scalar(field.type,
-              [&]<class T>(std::type_identity<T>) { record.put(field.offset, static_cast<T>(stretch * value)); });
+  with_scalar(field.type, [&]<class T>(std::type_identity<T>) { record.put(field.offset, static_cast<T>(value)); });
 }
 
 Bytes make_record(const PointCloud& cloud, const Layout& layout, std::size_t row) {
@@ -275,7 +295,7 @@ Bytes make_record(const PointCloud& cloud, const Layout& layout, std::size_t row
     at += 4;
   }
   if (!layout.has_returns) record.put(14, std::uint8_t{0x11}); // the only return
-  for (const Column& column : layout.columns) put_column(record, column, row);
+  for (const Column& column : layout.columns) put_column(record, layout, column, row);
   at = las_record_bytes(layout.format);
   for (const Extra& extra : layout.extras) {
     with_scalar(extra.attribute->type,

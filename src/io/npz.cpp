@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "evidence/sensor_rows.h"
 #include "io/attributes.h"
 #include "io/formats.h"
 #include "io/npy.h"

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "io/attributes.h"
+#include "io/colours.h"
 #include "io/formats.h"
 #include "io/polygons.h"
 #include "io/text_output.h"
@@ -124,15 +125,15 @@ class ObjReader {
 };
 
 /// `v x y z`, with the colour where there is one.
-void append_vertex(std::string& text, const Vec3& p, const std::optional<ColourColumns>& colours, std::size_t row,
+void append_vertex(std::string& text, const Vec3& p, const std::optional<ViewerColours>& colours, std::size_t row,
                    bool as_float) {
   text += "v ";
   append_point(text, p, ' ', as_float);
   if (colours) {
-    for (const Attribute* channel : colours->rgb) {
+    for (std::size_t k = 0; k < 3; ++k) {
       text += ' ';
       // A float's own digits: as a double it would have eight more that mean nothing.
-      append_coordinate(text, colour_fraction(*channel, row), channel->type == ScalarType::float32);
+      append_coordinate(text, colours->fraction(k, row), colours->source[0]->type == ScalarType::float32);
     }
   }
   text += '\n';
@@ -156,9 +157,10 @@ TriangleMesh read_obj(const FileContent& file) { return ObjReader(file).read(); 
 Body prepare_obj(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result) {
   const bool as_float = options.coordinates == CoordinateType::float32;
   result.coordinates = as_float ? CoordinateType::float32 : CoordinateType::float64;
-  warn_lost_attributes(mesh.vertex_attributes, "vertices", 3, "OBJ", result.warnings);
-  warn_lost_attributes(mesh.triangle_attributes, "triangles", 0, "OBJ", result.warnings);
   const auto colours = find_colours(mesh.vertex_attributes);
+  warn_lost_attributes(mesh.vertex_attributes, "vertices", colours ? &*colours : nullptr, false, "OBJ",
+                       result.warnings);
+  warn_lost_attributes(mesh.triangle_attributes, "triangles", nullptr, false, "OBJ", result.warnings);
   return [&mesh, comments = options.comments, colours, as_float](std::ostream& out) {
     TextBuffer buffer(out);
     append_comments(buffer.text(), "# ", comments);
@@ -182,15 +184,9 @@ Body prepare_obj(const PointCloud& cloud, const WriteOptions& options, WriteResu
   const bool as_float = options.coordinates == CoordinateType::float32;
   result.coordinates = as_float ? CoordinateType::float32 : CoordinateType::float64;
   const std::vector<const Attribute*> normals = find_normals(cloud.attributes);
-  std::vector<Attribute> lost; // names only
-  for (const Attribute& a : cloud.attributes)
-    if (std::find(normals.begin(), normals.end(), &a) == normals.end()) {
-      lost.emplace_back();
-      lost.back().name = a.name;
-      lost.back().type = a.type;
-    }
-  warn_lost_attributes(lost, "points", 3, "OBJ", result.warnings);
   const auto colours = find_colours(cloud.attributes);
+  warn_lost_attributes(cloud.attributes, "points", colours ? &*colours : nullptr, false, "OBJ", result.warnings,
+                       normals);
   return [&cloud, comments = options.comments, colours, normals, as_float](std::ostream& out) {
     TextBuffer buffer(out);
     append_comments(buffer.text(), "# ", comments);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/attributes.h"
+#include "io/colours.h"
 #include "io/formats.h"
 #include "io/polygons.h"
 #include "io/text_output.h"
@@ -168,18 +169,15 @@ void append_fraction(std::string& out, double value) {
   if (out.find_first_of(".en", begin) == std::string::npos) out += ".0";
 }
 
-void append_colour(std::string& out, const ColourColumns& colours, std::size_t row) {
-  const bool bytes = std::all_of(colours.rgb.begin(), colours.rgb.end(),
-                                 [](const Attribute* channel) { return channel->type == ScalarType::uint8; });
-  const auto append = [&](double fraction) {
+void append_colour(std::string& out, const ViewerColours& colours, std::size_t row) {
+  for (std::size_t k = 0; k < 4; ++k) {
     out += ' ';
-    if (bytes)
-      append_number(out, static_cast<std::int64_t>(std::lround(255 * std::clamp(fraction, 0.0, 1.0))));
+    const bool is_there = k < 3 || colours.has_alpha();
+    if (colours.exact)
+      append_number(out, std::int64_t{is_there ? colours.rgba[k][row] : std::uint8_t{255}});
     else
-      append_fraction(out, fraction);
-  };
-  for (const Attribute* channel : colours.rgb) append(colour_fraction(*channel, row));
-  append(colours.alpha != nullptr ? colour_fraction(*colours.alpha, row) : 1.0);
+      append_fraction(out, is_there ? colours.fraction(k, row) : 1.0);
+  }
 }
 
 } // namespace
@@ -189,9 +187,9 @@ TriangleMesh read_off(const FileContent& file) { return OffReader(file).read(); 
 Body prepare_off(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result) {
   const bool as_float = options.coordinates == CoordinateType::float32;
   result.coordinates = as_float ? CoordinateType::float32 : CoordinateType::float64;
-  warn_lost_attributes(mesh.vertex_attributes, "vertices", 4, "OFF", result.warnings);
-  warn_lost_attributes(mesh.triangle_attributes, "triangles", 0, "OFF", result.warnings);
   const auto colours = find_colours(mesh.vertex_attributes);
+  warn_lost_attributes(mesh.vertex_attributes, "vertices", colours ? &*colours : nullptr, true, "OFF", result.warnings);
+  warn_lost_attributes(mesh.triangle_attributes, "triangles", nullptr, false, "OFF", result.warnings);
   return [&mesh, comments = options.comments, colours, as_float](std::ostream& out) {
     TextBuffer buffer(out);
     std::string& text = buffer.text();

@@ -3,15 +3,18 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <eigencrust/io.h>
 
 #include "io/attributes.h"
+#include "io/colours.h"
 #include "io/formats.h"
 #include "io/lzf.h"
 #include "io/pcd_header.h"
 #include "io/point_table.h"
 #include "io/pose.h"
+#include "io/scan_grid.h"
 #include "io/text.h"
 #include "surface/scalar.h"
 
@@ -123,13 +126,6 @@ std::vector<Attribute> read_compressed(const FileContent& file, const PcdHeader&
     from += width * header.points;
   }
   return columns;
-}
-
-/// The four bytes of a packed colour. Some programs print them as a whole number, some that number as a
-/// real (4.2108e+06), some the real number that has the same bits (below 1 or negative).
-double packed_colour(double value) {
-  if (value >= 0x1p32) return 0xffffffff;
-  return value >= 1 ? std::floor(value) : std::bit_cast<std::uint32_t>(static_cast<float>(value));
 }
 
 class TextRows {
@@ -309,6 +305,11 @@ PointCloud read_pcd(const FileContent& file, const ReadOptions& options, std::ve
       break;
   }
   PointCloud cloud = assemble(std::move(columns), header);
+  if (header.height > 1 && header.width > 1) {
+    std::vector<std::uint64_t> cells(cloud.points.size());
+    std::iota(cells.begin(), cells.end(), std::uint64_t{0});
+    add_grid_columns(cloud, cells, header.width);
+  }
   use_viewpoint(cloud, header, options.pcd_viewpoint, file, notes);
   return cloud;
 }

@@ -120,6 +120,8 @@ class HeaderReader {
       lines_.fail("POINTS is " + std::to_string(*points_) + ", but WIDTH x HEIGHT is " + std::to_string(width * height),
                   "make them agree");
     header_.points = points_ ? *points_ : width * height;
+    header_.width = width;
+    header_.height = height;
     header_.data_offset = lines_.offset();
     header_.lines = lines_.number();
   }

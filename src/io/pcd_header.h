@@ -25,6 +25,7 @@ struct PcdField {
 struct PcdHeader {
   std::vector<PcdField> fields;
   std::uint64_t points = 0;                       ///< what the header claims
+  std::uint64_t width = 0, height = 1;            ///< of the grid; height 1: there is none
   std::optional<std::array<double, 7>> viewpoint; ///< tx ty tz qw qx qy qz, all finite
   std::uint64_t viewpoint_line = 0;
   PcdEncoding encoding = PcdEncoding::ascii;

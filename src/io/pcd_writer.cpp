@@ -5,6 +5,7 @@
 
 #include "io/attributes.h"
 #include "io/binary_output.h"
+#include "io/colours.h"
 #include "io/formats.h"
 #include "io/precision.h"
 #include "io/text_output.h"
@@ -21,28 +22,28 @@ struct Field {
   std::string name;
 };
 
-/// Bytes of colour are packed; other colours stay columns, so that nothing is rounded.
-bool packs(const std::optional<ColourColumns>& colours) {
-  return colours && std::all_of(colours->rgb.begin(), colours->rgb.end(),
-                                [](const Attribute* channel) { return channel->type == ScalarType::uint8; });
-}
-
-std::vector<Field> make_fields(const PointCloud& cloud, const std::optional<ColourColumns>& colours,
+/// Colours are packed. Columns that hold more than these bytes, or bytes in another form, stay beside them.
+std::vector<Field> make_fields(const PointCloud& cloud, const std::optional<ViewerColours>& colours,
                                std::vector<std::string>& warnings) {
   std::vector<Field> fields;
   UniqueNames unique{"x", "y", "z", "X", "Y", "Z", "_", "rgb", "rgba"};
-  const bool packed = packs(colours);
+  const bool replaces = colours && (colours->plain || colours->source.size() == 1);
+  const bool is_beside = colours && !replaces;
+  if (is_beside) fields.push_back({nullptr, "rgb"});
   for (const Attribute& a : cloud.attributes) {
     if (a.is_list) {
       warnings.push_back("PCD has no room for the list attribute " + a.name);
       continue;
     }
-    if (packed && std::find(colours->rgb.begin(), colours->rgb.end(), &a) != colours->rgb.end()) {
-      if (&a == colours->rgb[0]) fields.push_back({nullptr, "rgb"});
+    const bool is_colour = colours && colours->is_source(a);
+    const bool is_alpha = is_colour && colours->source.size() == 4 && colours->source[3] == &a;
+    if (replaces && is_colour && !is_alpha) {
+      if (&a == colours->source[0]) fields.push_back({nullptr, "rgb"});
       continue;
     }
     std::string name;
     for (const char c : a.name) name += static_cast<unsigned char>(c) <= ' ' || c == '\x7f' || c == '#' ? '_' : c;
+    if (is_beside && (name == "red" || name == "green" || name == "blue")) name += "_original";
     name = unique(name.empty() ? "field" : name);
     if (name != a.name) warnings.push_back("attribute '" + a.name + "' is written as '" + name + "'");
     for (const auto& [usual, pcl] : normals)
@@ -82,10 +83,9 @@ std::string make_header(const PointCloud& cloud, const std::vector<Field>& field
          "\nHEIGHT 1\nVIEWPOINT " + viewpoint + " 1 0 0 0\nPOINTS " + n + "\nDATA binary\n";
 }
 
-std::uint32_t packed_colour(const ColourColumns& colours, std::size_t row) {
+std::uint32_t packed_colour(const ViewerColours& colours, std::size_t row) {
   std::uint32_t packed = 0;
-  for (const Attribute* channel : colours.rgb)
-    packed = packed << 8 | std::to_integer<std::uint32_t>(channel->values[row]);
+  for (std::size_t k = 0; k < 3; ++k) packed = packed << 8 | colours.rgba[k][row];
   return packed;
 }
 

@@ -227,8 +227,11 @@ void check_vertex_element(const PlyElement* vertex, const FileContent& file) {
   if (vertex == nullptr) file.fail("the PLY file has no vertex element", "use a file that holds points");
   for (const std::string_view axis : {"x", "y", "z"}) {
     int declared = 0;
+    const bool exact = std::any_of(vertex->properties.begin(), vertex->properties.end(),
+                                   [&](const PlyProperty& p) { return p.name == axis; });
     for (const PlyProperty& property : vertex->properties) {
-      if (property.name != axis) continue;
+      // X counts where there is no x.
+      if (exact ? property.name != axis : !equal_ignoring_case(property.name, axis)) continue;
       ++declared;
       if (property.is_list)
         file.fail_at_line(vertex->line, "property " + shown(axis) + " is a list", "declare x, y and z as numbers");
@@ -280,8 +283,10 @@ std::vector<Vec3> take_points(std::vector<Attribute>& columns) {
   constexpr std::array<std::pair<const char*, double Vec3::*>, 3> axes = {
       {{"x", &Vec3::x}, {"y", &Vec3::y}, {"z", &Vec3::z}}};
   for (const auto& [name, axis] : axes) {
-    const auto column =
-        std::find_if(columns.begin(), columns.end(), [n = name](const Attribute& a) { return a.name == n; });
+    auto column = std::find_if(columns.begin(), columns.end(), [n = name](const Attribute& a) { return a.name == n; });
+    if (column == columns.end()) // an upper case X, where there is no x
+      column = std::find_if(columns.begin(), columns.end(),
+                            [n = name](const Attribute& a) { return equal_ignoring_case(a.name, n); });
     points.resize(column->rows());
     with_scalar(column->type, [&, a = axis]<class T>(std::type_identity<T>) {
       for (std::size_t i = 0; i < points.size(); ++i)

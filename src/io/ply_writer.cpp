@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <limits>
+#include <memory>
 
 #include <eigencrust/error.h>
 
 #include "io/attributes.h"
 #include "io/binary_output.h"
+#include "io/colours.h"
 #include "io/formats.h"
 #include "io/ply.h"
 #include "io/precision.h"
@@ -43,6 +45,35 @@ std::vector<Property> make_properties(const std::vector<Attribute>& attributes, 
     properties.push_back({&attribute, name, count_type_of(attribute)});
   }
   return properties;
+}
+
+/// The colours that viewers expect, where the attributes have them in another form, and the attributes behind them.
+struct VertexColumns {
+  std::vector<Attribute> colours;
+  std::vector<Property> properties;
+};
+
+/// Attributes whose names the colours take get the suffix _original.
+std::shared_ptr<const VertexColumns> make_vertex_columns(const std::vector<Attribute>& attributes,
+                                                         std::vector<std::string>& warnings) {
+  auto columns = std::make_shared<VertexColumns>();
+  const auto colours = find_colours(attributes);
+  UniqueNames unique{"x", "y", "z"};
+  if (!colours || colours->plain) {
+    columns->properties = make_properties(attributes, std::move(unique), warnings);
+    return columns;
+  }
+  columns->colours = colours->attributes();
+  columns->properties = make_properties(columns->colours, unique, warnings);
+  for (const Attribute& colour : columns->colours) unique(colour.name);
+  std::vector<std::string> renamed;
+  for (Property& property : make_properties(attributes, unique, renamed)) {
+    const std::string& name = property.attribute->name;
+    if (find_attribute(columns->colours, name) != nullptr) property.name = unique(name + "_original");
+    if (property.name != name) warnings.push_back("attribute '" + name + "' is written as '" + property.name + "'");
+    columns->properties.push_back(std::move(property));
+  }
+  return columns;
 }
 
 void append_declarations(std::string& header, const std::vector<Property>& properties) {
@@ -101,10 +132,10 @@ Body prepare_ply(const TriangleMesh& mesh, const WriteOptions& options, WriteRes
   if (options.coordinates == CoordinateType::float32 && !distinct_as_float(mesh.vertices))
     throw Error(ErrorKind::guarantee, "PLY", "32-bit coordinates would make different vertices equal",
                 "write 64-bit coordinates");
-  const auto vertex = make_properties(mesh.vertex_attributes, {"x", "y", "z"}, result.warnings);
+  const auto vertex = make_vertex_columns(mesh.vertex_attributes, result.warnings);
   const auto face = make_properties(mesh.triangle_attributes, {"vertex_indices", "vertex_index"}, result.warnings);
   const bool wide = mesh.vertices.size() > std::size_t{1} << 31;
-  std::string header = start_header(mesh.vertices, vertex, options, result.coordinates);
+  std::string header = start_header(mesh.vertices, vertex->properties, options, result.coordinates);
   header += "element face " + std::to_string(mesh.triangles.size()) + '\n';
   header += std::string("property list uchar ") + (wide ? "uint" : "int") + " vertex_indices\n";
   append_declarations(header, face);
@@ -112,7 +143,7 @@ Body prepare_ply(const TriangleMesh& mesh, const WriteOptions& options, WriteRes
   return [&mesh, vertex, face, header, coordinates = result.coordinates](std::ostream& out) {
     BinaryBuffer buffer(out);
     append_header(buffer, header);
-    append_vertices(buffer, mesh.vertices, vertex, coordinates);
+    append_vertices(buffer, mesh.vertices, vertex->properties, coordinates);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       buffer.append(std::uint8_t{3});
       for (const std::uint32_t corner : mesh.triangles[i]) buffer.append(corner);
@@ -125,12 +156,13 @@ Body prepare_ply(const PointCloud& cloud, const WriteOptions& options, WriteResu
   result.coordinates = choose_coordinates(cloud.points, options.spacing, options);
   if (options.coordinates == CoordinateType::float32 && !distinct_as_float(cloud.points))
     result.warnings.emplace_back("32-bit coordinates make different points equal");
-  const auto properties = make_properties(cloud.attributes, {"x", "y", "z"}, result.warnings);
-  const std::string header = start_header(cloud.points, properties, options, result.coordinates) + "end_header\n";
-  return [&cloud, properties, header, coordinates = result.coordinates](std::ostream& out) {
+  const auto vertex = make_vertex_columns(cloud.attributes, result.warnings);
+  const std::string header =
+      start_header(cloud.points, vertex->properties, options, result.coordinates) + "end_header\n";
+  return [&cloud, vertex, header, coordinates = result.coordinates](std::ostream& out) {
     BinaryBuffer buffer(out);
     append_header(buffer, header);
-    append_vertices(buffer, cloud.points, properties, coordinates);
+    append_vertices(buffer, cloud.points, vertex->properties, coordinates);
   };
 }
 

@@ -2,11 +2,11 @@
 #include "io/point_table.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
-#include <eigencrust/io.h>
-
 #include "io/attributes.h"
+#include "io/colours.h"
 
 namespace eigencrust::io {
 namespace {
@@ -24,6 +24,15 @@ bool is_colour(const std::string& name) {
 bool all_integers(const std::vector<double>& values, double lowest, double largest) {
   return std::all_of(values.begin(), values.end(),
                      [&](double v) { return std::isnan(v) || (v >= lowest && v <= largest && v == std::floor(v)); });
+}
+
+/// Only hexadecimal digits, at most 13 of them: such numbers are exact.
+bool parse_hexadecimal(std::string_view digits, double& value) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number, 16);
+  if (error != std::errc() || end != digits.data() + digits.size() || digits.size() > 13) return false;
+  value = static_cast<double>(number);
+  return true;
 }
 
 } // namespace
@@ -52,7 +61,43 @@ void PointTable::set_layout(const std::vector<std::string>& names, const LineSca
   for (std::size_t k = 0; k < 3; ++k)
     if (found[k] != 1)
       lines.fail((found[k] == 0 ? "no column is named " : "more than one column is named ") + shown(axis_names[k]),
-                 "name the columns in order, for example x,y,z,-,intensity");
+                 "name the columns in order, for example --columns x,y,z,-,intensity");
+}
+
+double PointTable::read_coordinate(std::string_view field, std::size_t i, const LineScanner& lines) {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  if (parse_field(field, format_, value)) return value;
+  // A point must be known, so that a field left empty is a fault; but programs say in words that it is not.
+  if (field.empty() || !is_missing(field))
+    lines.fail(shown(field) + " in column " + std::to_string(i + 1) + " (" + field_names_[i] + ") is no number",
+               "correct it, or say which columns hold the coordinates: --columns x,y,z, with - for those to skip");
+  if (unknown_coordinates_++ == 0) unknown_word_ = shown(field);
+  return value;
+}
+
+double PointTable::read_value(Column& column, std::string_view field, std::uint64_t line) const {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  if (field.empty() || parse_field(field, format_, value)) return value;
+  if (is_missing(field)) {
+    if (column.missing++ == 0) column.missing_word = shown(field);
+    return value;
+  }
+  if (field.size() > 2 && (field.starts_with("0x") || field.starts_with("0X")) &&
+      parse_hexadecimal(field.substr(2), value))
+    return value;
+  if (field.size() == 7 && field.front() == '#' && parse_hexadecimal(field.substr(1), value)) {
+    ++column.colours;
+    return value;
+  }
+  if (equal_ignoring_case(field, "true") || equal_ignoring_case(field, "false")) {
+    ++column.truths;
+    return equal_ignoring_case(field, "true") ? 1 : 0;
+  }
+  if (column.words++ == 0) {
+    column.word = shown(field);
+    column.word_line = line;
+  }
+  return value;
 }
 
 void PointTable::add_row(const Fields& fields, const LineScanner& lines) {
@@ -64,19 +109,13 @@ void PointTable::add_row(const Fields& fields, const LineScanner& lines) {
   std::array<double, 3> point{};
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (targets_[i] == skipped) continue;
-    double value = std::numeric_limits<double>::quiet_NaN();
-    const bool is_coordinate = targets_[i] < 3;
-    // An empty field of a table is an unknown value; a point must be known.
-    if (!(fields[i].empty() && !is_coordinate) && !parse(fields[i], value))
-      lines.fail(shown(fields[i]) + " in column " + std::to_string(i + 1) + " (" + field_names_[i] + ") is no number",
-                 "correct it, or skip the column by naming it '-'");
-    if (is_coordinate) {
-      point[targets_[i]] = value;
-    } else {
-      std::vector<double>& values = columns_[targets_[i] - 3].values;
-      if (values.size() < row) values.resize(row, std::numeric_limits<double>::quiet_NaN());
-      values.push_back(value);
+    if (targets_[i] < 3) {
+      point[targets_[i]] = read_coordinate(fields[i], i, lines);
+      continue;
     }
+    Column& column = columns_[targets_[i] - 3];
+    if (column.values.size() < row) column.values.resize(row, std::numeric_limits<double>::quiet_NaN());
+    column.values.push_back(read_value(column, fields[i], lines.number()));
   }
   points_.push_back({point[0], point[1], point[2]});
 }
@@ -87,17 +126,47 @@ void PointTable::drop_last_row() {
     if (column.values.size() > points_.size()) column.values.pop_back();
 }
 
-PointCloud PointTable::finish(bool integer_intensity) {
+bool PointTable::is_left_out(const Column& column, std::size_t rows, ReadNotes& notes) {
+  const std::string name = "column " + shown(column.name);
+  if (column.missing > 0)
+    notes.notes.push_back(name + ": " + plural(column.missing, "value") + " " + column.missing_word +
+                          " read as not known");
+  if (column.words == 0) return false;
+  const std::string example = column.word + " (line " + std::to_string(column.word_line) + ") is no number";
+  if (2 * column.words >= rows - std::min(rows, column.missing)) {
+    notes.warnings.push_back(name + " left out: " + example);
+    return true;
+  }
+  notes.warnings.push_back(name + ": " + plural(column.words, "value") + " read as not known: " + example);
+  return false;
+}
+
+PointCloud PointTable::finish(bool integer_intensity, ReadNotes& notes) {
   PointCloud cloud;
   const std::size_t rows = points_.size();
   cloud.points = std::move(points_);
+  if (unknown_coordinates_ > 0)
+    notes.notes.push_back(plural(unknown_coordinates_, "coordinate") + " " + unknown_word_ + " read as not known");
+  UniqueNames unique;
+  for (const Column& column : columns_) unique(column.name);
   for (Column& column : columns_) {
+    if (is_left_out(column, rows, notes)) continue;
+    const std::size_t others = column.words + column.missing;
     ScalarType type = ScalarType::float64;
     if (is_colour(column.name) && all_integers(column.values, 0, 255)) type = ScalarType::uint8;
+    if (column.truths > 0 && others == 0 && all_integers(column.values, 0, 1)) type = ScalarType::uint8;
     if (integer_intensity && column.name == "intensity" && all_integers(column.values, -2147483648.0, 2147483647.0))
       type = ScalarType::int32;
     column.values.resize(rows, std::numeric_limits<double>::quiet_NaN());
-    cloud.attributes.push_back(make_attribute(column.name, type, column.values));
+    if (column.colours > 0 && column.colours + others == rows) {
+      notes.notes.push_back("column " + shown(column.name) + " read as colours #rrggbb");
+      for (Attribute& channel : unpack_colours(column.values, false)) {
+        channel.name = unique(channel.name);
+        cloud.attributes.push_back(std::move(channel));
+      }
+    } else {
+      cloud.attributes.push_back(make_attribute(column.name, type, column.values));
+    }
     column.values = {};
   }
   return cloud;

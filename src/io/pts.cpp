@@ -44,7 +44,7 @@ void set_layout(PointTable& table, const Fields& fields, const ReadOptions& opti
   table.set_layout(options.columns.empty() ? usual_names(count) : complete_names(options.columns, count), lines);
 }
 
-PointCloud read_blocks(const FileContent& file, const ReadOptions& options) {
+PointCloud read_blocks(const FileContent& file, const ReadOptions& options, ReadNotes& notes) {
   LineScanner lines(file);
   PointTable table;
   Fields fields;
@@ -66,20 +66,20 @@ PointCloud read_blocks(const FileContent& file, const ReadOptions& options) {
     }
     scan_index.resize(table.rows(), scans++);
   }
-  PointCloud cloud = table.finish(true);
+  PointCloud cloud = table.finish(true, notes);
   if (scans > 1) cloud.scan_index = std::move(scan_index);
   return cloud;
 }
 
 } // namespace
 
-PointCloud read_pts(const FileContent& file, const ReadOptions& options) {
+PointCloud read_pts(const FileContent& file, const ReadOptions& options, ReadNotes& notes) {
   LineScanner lines(file);
   Fields fields;
   std::uint64_t count = 0;
   // Some .pts files are mere rows of coordinates without a count.
-  if (next_row(lines, fields) && is_count(fields, count)) return read_blocks(file, options);
-  return read_lettered_xyz(file, options);
+  if (next_row(lines, fields) && is_count(fields, count)) return read_blocks(file, options, notes);
+  return read_lettered_xyz(file, options, notes);
 }
 
 } // namespace eigencrust::io

@@ -3,6 +3,7 @@
 // rows, the scanner's position, its three axes and a 4 x 4 matrix for row vectors (the translation is its
 // last row), one per line; then columns x rows lines x y z intensity [red green blue] in the scanner's
 // own frame, 0 0 0 where nothing came back.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -10,6 +11,7 @@
 #include "io/formats.h"
 #include "io/point_table.h"
 #include "io/pose.h"
+#include "io/scan_grid.h"
 #include "io/text.h"
 
 namespace eigencrust::io {
@@ -31,6 +33,7 @@ struct Matrix {
 
 struct Scan {
   std::uint64_t points = 0; ///< columns x rows, as the header claims
+  std::uint64_t rows = 0;   ///< the rows of a column follow one another
   Vec3 position;
   Matrix matrix;
   std::size_t end = 0; ///< rows of the table up to here
@@ -62,6 +65,7 @@ Scan read_header(LineScanner& lines, Fields& fields) {
   if (rows != 0 && columns > std::numeric_limits<std::uint64_t>::max() / rows)
     lines.fail("the scan has too many columns and rows", count_remedy);
   scan.points = columns * rows;
+  scan.rows = rows;
   const auto position = read_numbers<3>(lines, fields, "the position");
   scan.position = {position[0], position[1], position[2]};
   // The axes repeat what the matrix says.
@@ -86,8 +90,13 @@ void set_layout(PointTable& table, std::size_t count, const LineScanner& lines) 
   table.set_layout(names, lines);
 }
 
+/// Row and column in its grid of each point.
+struct GridPlaces {
+  std::vector<std::uint32_t> row, column;
+};
+
 /// \return the number of empty returns, which are left out
-std::uint64_t read_rows(LineScanner& lines, Fields& fields, const Scan& scan, PointTable& table) {
+std::uint64_t read_rows(LineScanner& lines, Fields& fields, const Scan& scan, PointTable& table, GridPlaces& places) {
   std::uint64_t empty = 0;
   for (std::uint64_t i = 0; i < scan.points; ++i) {
     const bool there = lines.next_filled();
@@ -99,7 +108,11 @@ std::uint64_t read_rows(LineScanner& lines, Fields& fields, const Scan& scan, Po
     set_layout(table, fields.size(), lines);
     check_decimal_commas(lines);
     table.add_row(fields, lines);
-    if (table.last_point() != Vec3{}) continue;
+    if (table.last_point() != Vec3{}) {
+      places.row.push_back(static_cast<std::uint32_t>(i % scan.rows));
+      places.column.push_back(static_cast<std::uint32_t>(i / scan.rows));
+      continue;
+    }
     table.drop_last_row();
     ++empty;
   }
@@ -138,21 +151,23 @@ void place_scans(PointCloud& cloud, const std::vector<Scan>& scans, std::vector<
 
 } // namespace
 
-PointCloud read_ptx(const FileContent& file, std::vector<std::string>& notes) {
+PointCloud read_ptx(const FileContent& file, ReadNotes& notes) {
   LineScanner lines(file);
   Fields fields;
   PointTable table;
   std::vector<Scan> scans;
+  GridPlaces places;
   std::uint64_t empty = 0;
   for (LineScanner next = lines; next.next_filled(); next = lines) {
     scans.push_back(read_header(lines, fields));
-    empty += read_rows(lines, fields, scans.back(), table);
+    empty += read_rows(lines, fields, scans.back(), table, places);
     scans.back().end = table.rows();
   }
   if (scans.empty()) file.fail("the file holds no scan", header_remedy);
-  PointCloud cloud = table.finish(true);
-  if (empty > 0) notes.push_back(plural(empty, "empty return") + " (0 0 0) left out");
-  place_scans(cloud, scans, notes);
+  PointCloud cloud = table.finish(true, notes);
+  if (empty > 0) notes.notes.push_back(plural(empty, "empty return") + " (0 0 0) left out");
+  place_scans(cloud, scans, notes.notes);
+  add_grid_columns(cloud, places.row, places.column);
   if (scans.size() > 1)
     for (std::size_t s = 0; s < scans.size(); ++s) cloud.scan_index.resize(scans[s].end, static_cast<std::uint32_t>(s));
   return cloud;

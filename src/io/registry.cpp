@@ -2,18 +2,27 @@
 // The only place that knows which extension, and which content, means which format.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <new>
+#include <optional>
 #include <stdexcept>
 
 #include <eigencrust/error.h>
 #include <eigencrust/io.h>
 
+#include "evidence/sensor_rows.h"
 #include "io/attributes.h"
 #include "io/colmap.h"
+#include "io/column_names.h"
+#include "io/coordinate_checks.h"
 #include "io/formats.h"
+#include "io/grid_sensor.h"
+#include "io/offset_file.h"
 #include "io/sensor_columns.h"
 #include "io/sha256.h"
+#include "io/table_plan.h"
 #include "io/text.h"
+#include "io/text_encoding.h"
 
 namespace eigencrust {
 namespace {
@@ -22,7 +31,7 @@ using io::Body;
 using io::FileContent;
 
 using Notes = std::vector<std::string>;
-using CloudReader = PointCloud (*)(const FileContent&, const ReadOptions&, Notes&);
+using CloudReader = PointCloud (*)(const FileContent&, const ReadOptions&, ReadNotes&);
 using MeshReader = TriangleMesh (*)(const FileContent&);
 using MeshWriter = Body (*)(const TriangleMesh&, const WriteOptions&, WriteResult&);
 using CloudWriter = Body (*)(const PointCloud&, const WriteOptions&, WriteResult&);
@@ -35,24 +44,27 @@ struct Format {
   CloudWriter write_cloud = nullptr;
 };
 
-PointCloud read_ply_points(const FileContent& file, const ReadOptions&, Notes&) { return io::read_ply_cloud(file); }
-PointCloud read_npy_points(const FileContent& file, const ReadOptions&, Notes&) { return io::read_npy(file); }
+PointCloud read_ply_points(const FileContent& file, const ReadOptions&, ReadNotes&) { return io::read_ply_cloud(file); }
+PointCloud read_npy_points(const FileContent& file, const ReadOptions&, ReadNotes&) { return io::read_npy(file); }
+PointCloud read_ptx_points(const FileContent& file, const ReadOptions&, ReadNotes& notes) {
+  return io::read_ptx(file, notes);
+}
+PointCloud read_pcd_points(const FileContent& file, const ReadOptions& options, ReadNotes& notes) {
+  return io::read_pcd(file, options, notes.notes);
+}
+PointCloud read_grid_points(const FileContent& file, const ReadOptions&, ReadNotes& notes) {
+  return io::read_esri_grid(file, notes);
+}
 
 /// Formats that can be read in one way only, but have something to say.
 template <PointCloud (*read)(const FileContent&, Notes&)>
-PointCloud read_noted(const FileContent& file, const ReadOptions&, Notes& notes) {
-  return read(file, notes);
-}
-
-/// Rows of text.
-template <PointCloud (*read)(const FileContent&, const ReadOptions&)>
-PointCloud read_rows(const FileContent& file, const ReadOptions& options, Notes&) {
-  return read(file, options);
+PointCloud read_noted(const FileContent& file, const ReadOptions&, ReadNotes& notes) {
+  return read(file, notes.notes);
 }
 
 /// The vertices of a mesh.
 template <MeshReader read>
-PointCloud read_vertices(const FileContent& file, const ReadOptions&, Notes&) {
+PointCloud read_vertices(const FileContent& file, const ReadOptions&, ReadNotes&) {
   TriangleMesh mesh = read(file);
   PointCloud cloud;
   cloud.points = std::move(mesh.vertices);
@@ -65,16 +77,18 @@ Body write_rows(const PointCloud& cloud, const WriteOptions& options, WriteResul
   return io::prepare_xyz(cloud, options, separator, result);
 }
 
+constexpr Format esri_grid = {"asc", read_grid_points}; ///< known by its first line alone
+
 constexpr std::array<Format, 16> formats = {{
     {"ply", read_ply_points, io::read_ply_mesh, io::prepare_ply, io::prepare_ply},
-    {"xyz", read_rows<io::read_xyz>, nullptr, nullptr, write_rows<' '>},
-    {"txt", read_rows<io::read_xyz>, nullptr, nullptr, write_rows<' '>},
-    {"asc", read_rows<io::read_xyz>, nullptr, nullptr, write_rows<' '>},
-    {"csv", read_rows<io::read_xyz>, nullptr, nullptr, write_rows<','>},
-    {"pts", read_rows<io::read_pts>},
+    {"xyz", io::read_xyz, nullptr, nullptr, write_rows<' '>},
+    {"txt", io::read_xyz, nullptr, nullptr, write_rows<' '>},
+    {"asc", io::read_xyz, nullptr, nullptr, write_rows<' '>},
+    {"csv", io::read_xyz, nullptr, nullptr, write_rows<','>},
+    {"pts", io::read_pts},
     {"e57", read_noted<io::read_e57>},
-    {"ptx", read_noted<io::read_ptx>},
-    {"pcd", io::read_pcd, nullptr, nullptr, io::prepare_pcd},
+    {"ptx", read_ptx_points},
+    {"pcd", read_pcd_points, nullptr, nullptr, io::prepare_pcd},
     {"las", read_noted<io::read_las>, nullptr, nullptr, io::prepare_las},
     {"laz", read_noted<io::read_las>}, // which says why it cannot
     {"npz", read_noted<io::read_npz>},
@@ -106,16 +120,13 @@ const Format* sniff_text(const FileContent& file) {
   io::Fields fields;
   while (lines.next_filled()) {
     const std::string_view line = lines.line();
-    if (line.starts_with('#') || line.starts_with("//")) continue;
+    if (io::comment_text(line)) continue;
     io::split_fields(line, fields);
     std::uint64_t count = 0;
     if (fields.size() == 1 && io::is_digit(line[0]) && io::parse(fields[0], count)) return find_format("pts");
     double number = 0;
     if (fields.size() >= 3 && io::parse(fields[0], number) && io::parse(fields[1], number)) return find_format("xyz");
-    std::string axes; // a header line with the names of the columns
-    for (const std::string_view field : fields)
-      if (field.size() == 1) axes += io::lower_case(field);
-    if (axes.starts_with("xyz")) return find_format("xyz");
+    if (io::find_axes(std::vector<std::string>(fields.begin(), fields.end()))) return find_format("xyz");
     for (const std::string_view keyword : {"v", "vn", "vt", "o", "g", "mtllib", "usemtl"})
       if (fields[0] == keyword) return find_format("obj");
     return nullptr;
@@ -137,6 +148,7 @@ const Format* sniff_signature(const FileContent& file) {
     if (word == keyword) return find_format("off");
   if (io::looks_like_pcd(file)) return find_format("pcd");
   if (io::looks_like_ptx(file)) return find_format("ptx");
+  if (io::looks_like_esri_grid(file)) return &esri_grid;
   return nullptr;
 }
 
@@ -156,6 +168,7 @@ const Format* sniff(const FileContent& file) {
 
 /// \param mesh_wanted only formats that hold triangles will do
 const Format& format_for_reading(const FileContent& file, bool mesh_wanted) {
+  io::reject_foreign(file);
   const Format* format = sniff_signature(file);
   if (format == nullptr) format = format_of(file.name());
   if (format == nullptr) format = sniff(file);
@@ -189,6 +202,24 @@ void add_colmap_sensors(const std::filesystem::path& path, PointCloud& cloud, No
                   " tell the camera that saw each point; of several the one nearest to their mean direction");
 }
 
+void append(Notes& notes, Notes more) { notes.insert(notes.end(), more.begin(), more.end()); }
+
+/// Scale and shift of the options.
+void change_frame(PointCloud& cloud, const ReadOptions& options) {
+  if (!(options.scale > 0) || !std::isfinite(options.scale) || !is_finite(options.shift))
+    throw Error(ErrorKind::usage, "reading", "scale or shift is no finite number, or the scale not above 0",
+                "give finite numbers");
+  if (options.scale == 1 && options.shift == Vec3{}) return;
+  // Millimetres divided by 1000 are rounded once, multiplied with 0.001 twice.
+  const double inverse = std::round(1 / options.scale);
+  const bool divides = options.scale < 1 && 1 / inverse == options.scale;
+  const auto scaled = [&](double v) { return divides ? v / inverse : v * options.scale; };
+  const auto moved = [&](const Vec3& p) { return Vec3{scaled(p.x), scaled(p.y), scaled(p.z)} + options.shift; };
+  for (Vec3& p : cloud.points) p = moved(p);
+  for (Sensor& s : cloud.sensors)
+    if (!s.at_infinity) s.place = moved(s.place);
+}
+
 [[noreturn]] void fail_memory(const std::filesystem::path& path) {
   throw Error(ErrorKind::memory, path.string(), "not enough memory for the file",
               "free memory or split the file into parts");
@@ -211,6 +242,17 @@ bool columns_tell_sensors(const PointCloud& cloud) {
   return true;
 }
 
+/// The shift as one more comment.
+WriteOptions with_shift(WriteOptions options) {
+  if (options.shift != Vec3{}) options.comments.push_back("shift " + io::three_numbers(options.shift));
+  return options;
+}
+
+/// Do the comments of WriteOptions arrive in files of the format?
+bool keeps_comments(const Format& format) {
+  return format.extension != "stl" && format.extension != "csv" && format.extension != "las";
+}
+
 void check_mesh(const TriangleMesh& mesh) {
   io::check_attributes(mesh.vertex_attributes, mesh.vertices.size(), "vertex row");
   io::check_attributes(mesh.triangle_attributes, mesh.triangles.size(), "triangle");
@@ -224,15 +266,27 @@ void check_mesh(const TriangleMesh& mesh) {
 
 } // namespace
 
-PointCloud io::read_cloud(const FileContent& file, const ReadOptions& options, Notes& notes) {
+PointCloud io::read_cloud(const FileContent& original, const ReadOptions& options, ReadNotes& notes) {
+  const std::optional<std::string> text = decode_utf16(original.bytes());
+  const FileContent decoded(original.name(), text ? std::string_view(*text) : std::string_view());
+  const FileContent& file = text ? decoded : original;
   PointCloud cloud = format_for_reading(file, false).read_cloud(file, options, notes);
+  append(notes.warnings, drop_no_data(cloud));
+  if (std::optional<ScanGrids> grids = find_grids(cloud)) {
+    cloud.grids = std::move(grids->sizes);
+    cloud.cell = std::move(grids->cell);
+  }
+  append(notes.warnings, doubt_coordinates(cloud.points));
   if (!options.sensors) {
     cloud.sensors.clear();
     cloud.sensor_of.clear();
   } else if (cloud.sensors.empty()) {
     if (const auto columns = find_sensor_columns(cloud)) {
       set_sensor_rows(cloud, columns->places);
-      notes.push_back(columns->names + " read as the sensor's position of each point");
+      notes.notes.push_back(columns->names + " read as the sensor's position of each point");
+    } else if (set_sensor_from_grid(cloud)) {
+      notes.notes.emplace_back(
+          "the points lie on rays from the origin through the pixels of their grid: sensor at (0, 0, 0)");
     }
   }
   return cloud;
@@ -248,15 +302,16 @@ std::vector<std::filesystem::path> companion_files(const std::filesystem::path& 
   return files;
 }
 
-PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options, Notes* notes,
+PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions& options, ReadNotes* notes,
                             std::string* sha256) {
   try {
-    Notes unused;
-    Notes& said = notes == nullptr ? unused : *notes;
+    ReadNotes unused;
+    ReadNotes& said = notes == nullptr ? unused : *notes;
     const FileContent file(path);
     if (sha256 != nullptr) *sha256 = io::sha256_of(file);
     PointCloud cloud = io::read_cloud(file, options, said);
-    if (options.sensors && cloud.sensors.empty()) add_colmap_sensors(path, cloud, said);
+    if (options.sensors && cloud.sensors.empty()) add_colmap_sensors(path, cloud, said.notes);
+    change_frame(cloud, options);
     return cloud;
   } catch (const std::bad_alloc&) {
     fail_memory(path);
@@ -281,7 +336,10 @@ WriteResult OutputFiles::add_mesh(const std::filesystem::path& path, const Trian
   if (format == nullptr || format->write_mesh == nullptr) fail_extension(path, true);
   check_mesh(mesh);
   WriteResult result;
-  const Body body = format->write_mesh(mesh, options, result);
+  const WriteOptions commented = with_shift(options);
+  const Body body = format->write_mesh(mesh, commented, result);
+  const bool is_told = keeps_comments(*format) && result.offset == Vec3{};
+  add_offset(path, is_told ? Vec3{} : result.offset - options.shift, result.warnings);
   add(path, body);
   return result;
 }
@@ -292,11 +350,13 @@ WriteResult OutputFiles::add_point_cloud(const std::filesystem::path& path, cons
   if (format == nullptr || format->write_cloud == nullptr) fail_extension(path, false);
   io::check_attributes(cloud.attributes, cloud.points.size(), "point");
   WriteResult result;
-  const Body body = format->write_cloud(cloud, options, result);
+  const WriteOptions commented = with_shift(options);
+  const Body body = format->write_cloud(cloud, commented, result);
   if (!cloud.scan_index.empty()) result.warnings.emplace_back("the scan numbers of the points are not written");
   const bool has_viewpoint = format->extension == "pcd" && io::viewpoint_of(cloud);
   if (!cloud.sensors.empty() && !has_viewpoint && !columns_tell_sensors(cloud))
     result.warnings.emplace_back("the sensors of the points are not written");
+  add_offset(path, keeps_comments(*format) ? Vec3{} : Vec3{} - options.shift, result.warnings);
   add(path, body);
   return result;
 }

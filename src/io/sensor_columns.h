@@ -4,18 +4,12 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include <eigencrust/types.h>
 
 namespace eigencrust::io {
-
-/// Says where the sensor of each point stood; equal places are one sensor, in the order in which they first
-/// appear. Points whose place is not finite have none.
-/// \param places as many as there are points
-void set_sensor_rows(PointCloud& cloud, std::span<const Vec3> places);
 
 /// Attributes that say where the sensor of each point stood.
 struct SensorColumns {

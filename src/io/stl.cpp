@@ -184,14 +184,16 @@ void choose_offset(const TriangleMesh& mesh, const WriteOptions& options, WriteR
     numbers += ' ';
     append_number(numbers, v);
   }
-  result.warnings.push_back("STL holds 32-bit coordinates only: this was subtracted from them:" + numbers);
+  result.warnings.push_back(
+      "STL holds 32-bit coordinates only: this was subtracted from them (see the file .offset.txt beside it):" +
+      numbers);
   if (rounding_error(mesh.vertices, result.offset) > allowed)
     result.warnings.push_back("rounding to 32 bits moves vertices by more than 1/1000 of the spacing");
 }
 
 void warn_lost(const TriangleMesh& mesh, WriteResult& result) {
-  warn_lost_attributes(mesh.vertex_attributes, "vertices", 0, "STL", result.warnings);
-  warn_lost_attributes(mesh.triangle_attributes, "triangles", 0, "STL", result.warnings);
+  warn_lost_attributes(mesh.vertex_attributes, "vertices", nullptr, false, "STL", result.warnings);
+  warn_lost_attributes(mesh.triangle_attributes, "triangles", nullptr, false, "STL", result.warnings);
   std::vector<bool> used(mesh.vertices.size());
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t vertex : triangle) used[vertex] = true;

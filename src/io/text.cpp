@@ -32,10 +32,11 @@ Real beyond_range(std::string_view text) {
 template <class Real>
 bool parse_real(std::string_view text, Real& value) {
   text = without_plus(text);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end != text.data() + text.size() || error == std::errc::invalid_argument) return false;
-  if (error == std::errc::result_out_of_range) value = beyond_range<Real>(text);
-  return !text.empty();
+  Real parsed{}; // from_chars reads "1" of "1.#QNAN": the value must stay what it was
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), parsed);
+  if (text.empty() || end != text.data() + text.size() || error == std::errc::invalid_argument) return false;
+  value = error == std::errc::result_out_of_range ? beyond_range<Real>(text) : parsed;
+  return true;
 }
 
 template <class Integer>

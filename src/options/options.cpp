@@ -2,12 +2,13 @@
 #include <eigencrust/options.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <utility>
 
 #include <eigencrust/error.h>
+
+#include "options/values.h"
 
 namespace eigencrust {
 namespace {
@@ -16,6 +17,12 @@ template <class Value, std::size_t n>
 using Names = std::array<std::pair<Value, const char*>, n>;
 
 constexpr Names<Preset, 2> presets{{{Preset::robust, "robust"}, {Preset::paper, "paper"}}};
+constexpr Names<Method, 6> methods{{{Method::eigencrust, "eigencrust"},
+                                    {Method::powercrust, "powercrust"},
+                                    {Method::spectral_powercrust, "spectral-powercrust"},
+                                    {Method::tight_cocone, "tight-cocone"},
+                                    {Method::robust_cocone, "robust-cocone"},
+                                    {Method::spectral_cocone, "spectral-cocone"}}};
 constexpr Names<Weights, 2> weights_names{{{Weights::evidence, "evidence"}, {Weights::paper, "paper"}}};
 constexpr Names<Eigensolver, 2> eigensolvers{
     {{Eigensolver::multigrid, "multigrid"}, {Eigensolver::lanczos, "lanczos"}}};
@@ -35,15 +42,14 @@ constexpr Names<Axis, 6> axes{{{Axis::plus_x, "+x"},
                                {Axis::plus_z, "+z"},
                                {Axis::minus_z, "-z"}}};
 
+constexpr Names<SceneKind, 3> scene_kinds{
+    {{SceneKind::body, "body"}, {SceneKind::interior, "interior"}, {SceneKind::facade, "facade"}}};
+
 template <class Value, std::size_t n>
 std::string name_of(const Names<Value, n>& names, Value value) {
   for (const auto& [v, name] : names)
     if (v == value) return name;
   return "?";
-}
-
-[[noreturn]] void reject(const std::string& what, const std::string& text, const std::string& accepted) {
-  throw Error(ErrorKind::usage, "options", "'" + text + "' is no " + what, "use " + accepted);
 }
 
 template <class Value, std::size_t n>
@@ -53,22 +59,7 @@ Value parse(const Names<Value, n>& names, const std::string& what, const std::st
     if (text == name) return v;
     accepted += (accepted.empty() ? "" : ", ") + std::string(name);
   }
-  reject(what, text, "one of " + accepted);
-}
-
-/// The whole text as a finite number.
-std::optional<double> number(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-std::string shortest(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
+  reject_value(what, text, "one of " + accepted);
 }
 
 } // namespace
@@ -96,6 +87,7 @@ Options Options::of(Preset preset) {
 }
 
 std::string to_string(Preset value) { return name_of(presets, value); }
+std::string to_string(Method value) { return name_of(methods, value); }
 std::string to_string(Weights value) { return name_of(weights_names, value); }
 std::string to_string(Eigensolver value) { return name_of(eigensolvers, value); }
 std::string to_string(SecondStage value) { return name_of(second_stages, value); }
@@ -104,6 +96,7 @@ std::string to_string(GlobalSign value) { return name_of(global_signs, value); }
 std::string to_string(ManifoldRule value) { return name_of(manifold_rules, value); }
 std::string to_string(SurfaceKind value) { return name_of(surface_kinds, value); }
 std::string to_string(Smoothing value) { return name_of(smoothings, value); }
+std::string to_string(SceneKind value) { return name_of(scene_kinds, value); }
 std::string to_string(Axis value) { return name_of(axes, value); }
 
 std::string to_string(const LengthChoice& value) {
@@ -135,6 +128,7 @@ std::string to_string(const KeepComponents& value) {
 }
 
 Preset parse_preset(const std::string& text) { return parse(presets, "preset", text); }
+Method parse_method(const std::string& text) { return parse(methods, "method", text); }
 Weights parse_weights(const std::string& text) { return parse(weights_names, "kind of weights", text); }
 Eigensolver parse_eigensolver(const std::string& text) { return parse(eigensolvers, "eigensolver", text); }
 SecondStage parse_second_stage(const std::string& text) { return parse(second_stages, "second stage", text); }
@@ -149,8 +143,8 @@ LengthChoice parse_length_choice(const std::string& what, const std::string& tex
   if (text == "auto") return {LengthChoice::Kind::automatic, 0};
   if (text == "off") return {LengthChoice::Kind::off, 0};
   const bool percent = !text.empty() && text.back() == '%';
-  const auto value = number(percent ? std::string_view(text).substr(0, text.size() - 1) : std::string_view(text));
-  if (!value || *value <= 0) reject(what, text, "auto, off, a positive length or N%");
+  const auto value = number_in(percent ? std::string_view(text).substr(0, text.size() - 1) : std::string_view(text));
+  if (!value || *value <= 0) reject_value(what, text, "auto, off, a positive length or N%");
   return {percent ? LengthChoice::Kind::percent : LengthChoice::Kind::length, *value};
 }
 
@@ -158,17 +152,15 @@ KeepComponents parse_components(const std::string& text) {
   if (text == "supported") return {KeepComponents::Kind::supported, 1};
   if (text == "all") return {KeepComponents::Kind::all, 1};
   if (text == "largest") return {KeepComponents::Kind::largest, 1};
-  std::uint32_t count = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error != std::errc{} || end != text.data() + text.size() || count == 0)
-    reject("choice of components", text, "supported, all, largest or a positive number");
-  return {KeepComponents::Kind::count, count};
+  const auto count = count_in(text);
+  if (!count || *count == 0) reject_value("choice of components", text, "supported, all, largest or a positive number");
+  return {KeepComponents::Kind::count, *count};
 }
 
 std::optional<double> parse_crossing_depth(const std::string& text) {
   if (text == "auto") return std::nullopt;
-  const auto value = number(text);
-  if (!value || *value < 0) reject("crossing depth", text, "auto or a length, 0 or more");
+  const auto value = number_in(text);
+  if (!value || *value < 0) reject_value("crossing depth", text, "auto or a length, 0 or more");
   return value;
 }
 
@@ -177,8 +169,9 @@ Vec3 parse_point(const std::string& text) {
   std::size_t begin = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t end = i < 2 ? text.find(',', begin) : text.size();
-    const auto v = end == std::string::npos ? std::nullopt : number(std::string_view(text).substr(begin, end - begin));
-    if (!v) reject("point", text, "three numbers x,y,z");
+    const auto v =
+        end == std::string::npos ? std::nullopt : number_in(std::string_view(text).substr(begin, end - begin));
+    if (!v) reject_value("point", text, "three numbers x,y,z");
     value[i] = *v;
     begin = end + 1;
   }
@@ -203,6 +196,10 @@ void check_options(const Options& options) {
   require(options.solver.max_steps >= 1, "the solver may take no step", "allow at least one");
   require(!options.crossing_depth || (*options.crossing_depth >= 0 && std::isfinite(*options.crossing_depth)),
           "the crossing depth is negative", "give a length, 0 or more");
+  require(!options.base || !options.trim, "--base closes what --trim opens", "leave out one of them");
+  const bool by_crust = options.method != Method::eigencrust && options.method != Method::spectral_cocone;
+  require(!by_crust || (!options.facade && !options.point_results),
+          "façades, normals and outliers are found by eigencrust only", "leave out --method");
   require(options.smooth <= 1000, "more than 1000 smoothing steps", "use fewer");
   require(options.threads <= 1024, "more than 1024 threads", "use fewer");
   for (const auto* points : {&options.outside_points, &options.inside_points})

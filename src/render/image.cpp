@@ -16,23 +16,6 @@ bool consistent(const Image& image) {
   return image.width > 0 && image.height > 0 && image.rgb.size() == std::size_t{3} * image.width * image.height;
 }
 
-/// The PNG's bytes. The simplified interface of libpng reports errors by return value: no longjmp.
-std::vector<char> encode_png(const std::filesystem::path& path, const Image& image) {
-  png_image png;
-  std::memset(&png, 0, sizeof png);
-  png.version = PNG_IMAGE_VERSION;
-  png.width = image.width;
-  png.height = image.height;
-  png.format = PNG_FORMAT_RGB;
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
-  std::vector<char> bytes(size);
-  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr) == 0)
-    throw Error(ErrorKind::input, path.string(), std::string("the picture could not be encoded: ") + png.message,
-                "choose a smaller picture");
-  bytes.resize(size);
-  return bytes;
-}
-
 } // namespace
 
 Image beside(const std::vector<Image>& images) {
@@ -74,13 +57,30 @@ Image stacked(const std::vector<Image>& images) {
   return result;
 }
 
-void write_png(const std::filesystem::path& path, const Image& image) {
+// The simplified interface of libpng reports errors by return value: no longjmp.
+std::vector<std::byte> encode_png(const Image& image) {
   if (!consistent(image))
-    throw Error(ErrorKind::input, path.string(), "the picture is empty or its rows do not fit its size",
-                "render it first");
-  const std::vector<char> bytes = encode_png(path, image);
-  write_file_atomically(
-      path, [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });
+    throw Error(ErrorKind::input, "picture", "the picture is empty or its rows do not fit its size", "render it first");
+  png_image png;
+  std::memset(&png, 0, sizeof png);
+  png.version = PNG_IMAGE_VERSION;
+  png.width = image.width;
+  png.height = image.height;
+  png.format = PNG_FORMAT_RGB;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+  std::vector<std::byte> bytes(size);
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr) == 0)
+    throw Error(ErrorKind::input, "picture", std::string("the picture could not be encoded: ") + png.message,
+                "choose a smaller picture");
+  bytes.resize(size);
+  return bytes;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image) {
+  const std::vector<std::byte> bytes = encode_png(image);
+  write_file_atomically(path, [&](std::ostream& out) {
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  });
 }
 
 } // namespace eigencrust

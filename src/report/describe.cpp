@@ -27,14 +27,37 @@ void describe_noise(std::vector<float> grid_spacing, Run& run) {
 }
 
 /// What the options promise and the mesh is not.
-std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Options& options) {
+std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Report& report) {
+  const Options& options = report.options;
   std::vector<std::string> broken;
-  if (!mesh.closed() && !options.facade && !options.trim) broken.emplace_back("closed");
+  if (!mesh.closed() && (report.surroundings.kind != SceneKind::facade || options.base) && !options.trim)
+    broken.emplace_back("closed");
   if (options.manifold && !mesh.manifold()) broken.emplace_back("manifold");
   if (options.manifold && !mesh.oriented()) broken.emplace_back("consistently oriented");
-  if (mesh.self_intersections > 0) broken.emplace_back("free of crossings");
-  if (mesh.closed() && mesh.oriented() && mesh.volume < 0) broken.emplace_back("outward oriented");
+  if (mesh.self_intersections > 0 && !options.base) broken.emplace_back("free of crossings");
+  const bool rooms = report.surroundings.kind == SceneKind::interior;
+  if (mesh.closed() && mesh.oriented() && (rooms ? mesh.volume > 0 : mesh.volume < 0))
+    broken.emplace_back(rooms ? "oriented to the scanners" : "outward oriented");
   return broken;
+}
+
+/// What to try where the samples lie like ground or a façade, and nothing tells which; or where most of the surface was
+/// invented, so that this is hardly a body, and no sensor tells what it is.
+std::string words_on_what_it_is(const Report& report) {
+  const std::optional<Axis>& axis = report.surroundings.likely_facade;
+  constexpr double far_too_much = 1.0 / 3; // statues without their underside have a fifth
+  if (!axis)
+    return report.unsupported_area > far_too_much && report.sight_lines == 0 &&
+                   report.surroundings.kind == SceneKind::body
+               ? "; if this is ground with what stands on it, --facade +z leaves it open below; if the scanner stood "
+                 "amid the points, --sensor with its place, as --sensor 0,0,0, finds the free space around it"
+               : "";
+  const std::string name = to_string(*axis);
+  if (*axis == Axis::plus_z)
+    return "; if this is ground with what stands on it, or a roof, --facade +z leaves it open below and --base closes "
+           "it with a flat base";
+  return "; if this is a facade, --facade " + name + " or --facade -" + name.substr(1) +
+         " (the side that it was seen from) leaves it open behind";
 }
 
 } // namespace
@@ -69,6 +92,8 @@ void describe(const Tetrahedralization& t, Run& run) {
 }
 
 void describe(const Poles& poles, Run& run) { run.count("poles", poles.tetrahedron.size()); }
+
+void describe(const KnownBeforehand& known, Run& run) { run.report().surroundings = known.surroundings; }
 
 void describe(const LinesOfSight& sight, Run& run) {
   run.report().one_sided = sight.one_sided;
@@ -163,7 +188,8 @@ void describe(const UnsupportedTriangles& unsupported, Run& run) {
   if (report.unsupported_area > usual && !report.options.trim)
     run.warn(std::to_string(std::lround(100 * report.unsupported_area)) +
              " % of the surface's area was invented: no samples bear it out" +
-             (report.one_sided ? " (the sensors all lie on one side)" : "") + "; --trim leaves it out");
+             (report.one_sided ? " (the sensors all lie on one side)" : "") + "; --trim leaves it out" +
+             words_on_what_it_is(report));
 }
 
 void describe(const TurnedOver& turned, Run& run) {
@@ -185,7 +211,7 @@ void describe(const UncrossCounts& counts, Run& run) {
 
 void describe(const MeshSummary& mesh, Run& run) {
   run.report().mesh = mesh;
-  run.report().broken_guarantees = broken_guarantees(mesh, run.report().options);
+  run.report().broken_guarantees = broken_guarantees(mesh, run.report());
 }
 
 } // namespace eigencrust

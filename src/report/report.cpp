@@ -34,7 +34,7 @@ Json json_of(const MeshSummary& m) {
             {"components", m.components},
             {"genus", m.genus},
             {"euler", m.euler},
-            {"volume", m.volume},
+            {"volume", m.closed() ? Json(m.volume) : Json()},
             {"area", m.area}};
   if (!m.bounds.empty()) json["bounds"] = {{"min", json_of(m.bounds.min)}, {"max", json_of(m.bounds.max)}};
   json["component_list"] = std::move(list);
@@ -52,6 +52,7 @@ Json json_of(const Options& o) {
           {"stable_share", o.solver.stable_share},
           {"tolerance", o.solver.tolerance},
           {"max_steps", o.solver.max_steps},
+          {"method", to_string(o.method)},
           {"second_stage", to_string(o.second_stage)},
           {"grid_spacing", to_string(o.grid_spacing)},
           {"noise", to_string(o.noise)},
@@ -69,6 +70,7 @@ Json json_of(const Options& o) {
           {"facade", o.facade          ? to_string(*o.facade)
                      : o.detect_facade ? "auto"
                                        : "off"},
+          {"base", o.base},
           {"trim", o.trim},
           {"point_results", o.point_results},
           {"threads", o.threads},
@@ -108,6 +110,11 @@ Json json_of(const std::optional<MovedReport>& moved) {
   return {{"vertices", moved->vertices}, {"median", moved->median}, {"q99", moved->q99}, {"max", moved->max}};
 }
 
+Json json_of(const std::optional<Base>& base) {
+  if (!base) return {};
+  return {{"vertices", base->vertices}, {"level", base->level}, {"volume_above_rim", base->volume_above_rim}};
+}
+
 /// What is known of the sensors of a file; null: nothing.
 Json json_of_sensors(const InputFile& file) {
   if (file.sensors.empty()) return {};
@@ -142,26 +149,30 @@ std::string to_json(const Report& report) {
   for (const DroppedComponent& d : report.dropped_components)
     dropped.push_back(
         {{"vertices", d.vertices}, {"triangles", d.triangles}, {"support", d.support}, {"centre", json_of(d.centre)}});
-  const Json json{{"schema", 1},
-                  {"version", version()},
-                  {"command", report.command},
-                  {"input", json_of_input(report)},
-                  {"options", json_of(report.options)},
-                  {"stages", std::move(stages)},
-                  {"partitions", std::move(partitions)},
-                  {"mesh", json_of(report.mesh)},
-                  {"grid_spacing", report.grid_spacing},
-                  {"dropped_components", std::move(dropped)},
-                  {"undecided_nodes", report.undecided_nodes},
-                  {"sight_lines", report.sight_lines},
-                  {"contradicting_rays", report.contradicting_rays},
-                  {"one_sided", json_of(report.one_sided)},
-                  {"unsupported_area", report.unsupported_area},
-                  {"moved", json_of(report.moved)},
-                  {"seconds", report.seconds},
-                  {"peak_memory_bytes", report.peak_memory_bytes},
-                  {"warnings", report.warnings},
-                  {"broken_guarantees", report.broken_guarantees}};
+  const Json json{
+      {"schema", 1},
+      {"version", version()},
+      {"command", report.command},
+      {"input", json_of_input(report)},
+      {"options", json_of(report.options)},
+      {"stages", std::move(stages)},
+      {"partitions", std::move(partitions)},
+      {"mesh", json_of(report.mesh)},
+      {"grid_spacing", report.grid_spacing},
+      {"dropped_components", std::move(dropped)},
+      {"undecided_nodes", report.undecided_nodes},
+      {"sight_lines", report.sight_lines},
+      {"contradicting_rays", report.contradicting_rays},
+      {"scene", to_string(report.surroundings.kind)},
+      {"facade", report.surroundings.kind == SceneKind::facade ? Json(to_string(report.surroundings.front)) : Json()},
+      {"one_sided", json_of(report.one_sided)},
+      {"base", json_of(report.base)},
+      {"unsupported_area", report.unsupported_area},
+      {"moved", json_of(report.moved)},
+      {"seconds", report.seconds},
+      {"peak_memory_bytes", report.peak_memory_bytes},
+      {"warnings", report.warnings},
+      {"broken_guarantees", report.broken_guarantees}};
   // Paths may hold bytes that are no UTF-8; a report must still come out.
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }

@@ -28,6 +28,23 @@ void check_sensors(const PointCloud& cloud) {
   }
 }
 
+void check_grids(const PointCloud& cloud) {
+  if (cloud.cell.empty()) return;
+  if (cloud.cell.size() != cloud.points.size())
+    throw Error(ErrorKind::input, "input",
+                "there are " + std::to_string(cloud.cell.size()) + " cells of grids for " +
+                    std::to_string(cloud.points.size()) + " points",
+                "give one cell per point");
+  for (std::size_t i = 0; i < cloud.cell.size(); ++i) {
+    if (cloud.cell[i] == no_index) continue;
+    const std::size_t scan = cloud.scan_index.empty() ? 0 : cloud.scan_index[i];
+    const ScanGrid grid = scan < cloud.grids.size() ? cloud.grids[scan] : ScanGrid{};
+    if (cloud.cell[i] >= std::uint64_t{grid.columns} * grid.rows)
+      throw Error(ErrorKind::input, "input", "a point names a cell that its scan's grid does not have",
+                  "number the cells from 0, or say no_index");
+  }
+}
+
 } // namespace
 
 void check_cloud(const PointCloud& cloud) {
@@ -44,6 +61,7 @@ void check_cloud(const PointCloud& cloud) {
                     " points",
                 "give one scan number per point");
   check_sensors(cloud);
+  check_grids(cloud);
 }
 
 } // namespace eigencrust

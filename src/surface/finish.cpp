@@ -6,6 +6,7 @@
 #include "fit/uncross.h"
 #include "geometry/exact_difference.h"
 #include "numerics/quantile.h"
+#include "surface/base.h"
 #include "surface/surface.h"
 #include "surface/turned_over.h"
 
@@ -77,17 +78,36 @@ void to_input_coordinates(Surface& surface, const Tetrahedralization& t, const s
   }
 }
 
-/// The surface, whose vertices are in input coordinates, with the attributes of its points and source_index.
-TriangleMesh finish_mesh(Surface& surface, const Tetrahedralization& t, const PointCloud& cloud) {
+/// \param moved are the vertices in input coordinates already?
+Base put_on_base(Surface& surface, const Scene& scene, bool moved, Axis front) {
+  Base base = close_with_base(front, scene.measures.model, surface);
+  const Vec3 axis = direction_of(front);
+  const Vec3 place = base.level * axis + (moved ? Vec3{} : scene.tetrahedralization.origin);
+  base.level = dot(place, axis) * (axis.x + axis.y + axis.z);
+  return base;
+}
+
+/// The surface in input coordinates with the attributes of its points and source_index. Unless the
+/// vertices were moved, and are in input coordinates, they are the input's rows bit for bit. The last `invented` are no
+/// row's.
+TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, const PointCloud& cloud, bool moved,
+                         std::size_t invented) {
   TriangleMesh mesh;
   mesh.triangles = surface.mesh.triangles;
   std::vector<std::uint32_t> source;
   source.reserve(surface.sample_of.size());
   for (const SampleIndex s : surface.sample_of) source.push_back(t.source[s]);
   mesh.vertices.reserve(source.size());
-  mesh.vertices = std::move(surface.mesh.vertices);
+  for (std::size_t v = 0; v < source.size(); ++v)
+    if (moved)
+      mesh.vertices.push_back(surface.mesh.vertices[v]);
+    else
+      mesh.vertices.push_back(v < source.size() - invented ? cloud.points[source[v]]
+                                                           : surface.mesh.vertices[v] + t.origin);
   for (const Attribute& attribute : cloud.attributes) mesh.vertex_attributes.push_back(gather(attribute, source));
-  mesh.vertex_attributes.push_back(make_attribute("source_index", source));
+  std::vector<std::uint32_t> source_row = source;
+  std::fill(source_row.end() - static_cast<std::ptrdiff_t>(invented), source_row.end(), no_index);
+  mesh.vertex_attributes.push_back(make_attribute("source_index", source_row));
   if (!cloud.scan_index.empty()) {
     std::vector<std::uint32_t> scan;
     scan.reserve(source.size());
@@ -111,14 +131,18 @@ TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene
       to_input_coordinates(surface, t, rows); // where this rounds, neighbours could meet
       return take_back_turned(rows, surface.mesh, threads);
     });
-  else
+  else if (fitted)
     to_input_coordinates(surface, t, rows);
   const bool moved = fitted || options.smooth > 0;
+  run.report().moved.reset();
   if (moved) {
     run.stage("crossings", [&] { return settle_moved(rows, scene.measures.model, surface.mesh, threads); });
     run.report().moved = distances_moved(rows, surface.mesh.vertices);
   }
-  return run.stage("attributes", [&] { return finish_mesh(surface, t, cloud); });
+  std::optional<Base>& base = run.report().base;
+  base.reset();
+  if (options.base) base = put_on_base(surface, scene, moved, run.report().surroundings.front);
+  return run.stage("attributes", [&] { return finish_mesh(surface, t, cloud, moved, base ? base->vertices : 0); });
 }
 
 void check(const TriangleMesh& mesh, const PointCloud& cloud, const Scene& scene, const ValidateOptions& checks,
@@ -126,7 +150,7 @@ void check(const TriangleMesh& mesh, const PointCloud& cloud, const Scene& scene
   const auto& [options, run, threads] = context;
   run.stage("validate", [&] {
     // Faces of one Delaunay tetrahedralization do not cross, unless they were moved or rounded (docs/guarantees.md).
-    const bool cannot_cross = checks.self_intersections && !run.report().moved &&
+    const bool cannot_cross = checks.self_intersections && !run.report().moved && !options.base &&
                               is_exact_translation(scene.tetrahedralization, cloud, threads);
     ValidateOptions needed = checks;
     needed.self_intersections = checks.self_intersections && !cannot_cross;

@@ -40,18 +40,29 @@ struct Wall {
   std::uint32_t inside = 0, outside = 0, triangles = 0;
 };
 
+/// \param rooms take the free space for the body: bodies in it are then its cavities
 std::vector<Wall> walls_of(const Surface& surface, std::span<const std::uint32_t> piece, std::size_t pieces,
-                           const Tetrahedralization& t, Regions& regions) {
+                           const Tetrahedralization& t, bool rooms, Regions& regions) {
   std::vector<Wall> walls(pieces);
   for (std::size_t i = 0; i < piece.size(); ++i) {
     Wall& wall = walls[piece[i]];
     if (wall.triangles++ == 0) wall = {regions.at(surface.inside[i]), regions.at(outside_of(surface, i, t)), 1};
   }
+  if (rooms)
+    for (Wall& wall : walls) std::swap(wall.inside, wall.outside);
   return walls;
 }
 
-/// Is there a kept piece whose volume is not surely positive? Mostly there is none.
-bool may_look_inward(const Surface& surface, std::span<const std::uint32_t> piece, std::span<const std::uint8_t> kept) {
+/// Rooms are holes in a solid that goes on for ever.
+bool is_solid_far_away(const Tetrahedralization& t, const Labels& labels) {
+  for (TetrahedronIndex i{0}; i.value < t.tetrahedra.size(); ++i.value)
+    if (t.touches_cube(i) && labels[i] != Label::inside) return false;
+  return true;
+}
+
+/// Is there a kept piece whose volume is not surely positive, or around rooms: negative? Mostly there is none.
+bool may_be_cavity(const Surface& surface, std::span<const std::uint32_t> piece, std::span<const std::uint8_t> kept,
+                   bool rooms) {
   std::vector<SignedVolume> volume(kept.size());
   std::vector<std::uint32_t> first(kept.size(), no_index);
   const auto& places = surface.mesh.vertices;
@@ -62,7 +73,7 @@ bool may_look_inward(const Surface& surface, std::span<const std::uint32_t> piec
     volume[piece[i]].add(places[a] - origin, places[b] - origin, places[c] - origin);
   }
   for (std::size_t c = 0; c < kept.size(); ++c)
-    if (kept[c] && volume[c].known() <= 0) return true;
+    if (kept[c] && (rooms ? -volume[c].known() : volume[c].known()) <= 0) return true;
   return false;
 }
 
@@ -132,11 +143,12 @@ void keep_shells(std::span<const Wall> walls, Regions& regions, std::vector<std:
 
 void settle_cavities(Surface& surface, std::span<const std::uint32_t> piece, const Tetrahedralization& t,
                      const Labels& labels, bool turn, std::vector<std::uint8_t>& kept) {
-  if (!may_look_inward(surface, piece, kept)) return;
+  const bool rooms = is_solid_far_away(t, labels);
+  if (!may_be_cavity(surface, piece, kept, rooms)) return;
   Regions regions(t, labels);
-  std::vector<Wall> walls = walls_of(surface, piece, kept.size(), t, regions);
+  std::vector<Wall> walls = walls_of(surface, piece, kept.size(), t, rooms, regions);
   measure_depths(walls, regions);
-  if (turn) turn_without_shell(surface, piece, t, kept, regions, walls);
+  if (turn && !rooms) turn_without_shell(surface, piece, t, kept, regions, walls);
   keep_shells(walls, regions, kept);
 }
 

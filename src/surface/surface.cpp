@@ -17,9 +17,11 @@ namespace {
 /// \param found pieces before some of them were left out
 void require_surface(const Surface& surface, bool found) {
   if (surface.mesh.triangles.empty())
-    throw Error(ErrorKind::no_surface, "surface",
-                found ? "nothing but the wall of a cavity was found" : "every tetrahedron was labelled outside",
-                "check that the points surround a volume, give less --noise or off, or name an inside point");
+    throw Error(
+        ErrorKind::no_surface, "surface",
+        found ? "nothing but the wall of a cavity was found" : "every tetrahedron was labelled outside",
+        "check that the points surround a volume, give less --noise or off, or name an inside point; of one side, "
+        "name which was seen, as --facade +z");
 }
 
 /// A scrap is no success: of so many samples some must lie on the surface, or as near as noise and spacing explain.
@@ -100,14 +102,22 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   require_surface(surface, found);
   if (options.components.kind == KeepComponents::Kind::supported) require_samples_near(surface, scene, threads);
   describe(samples_apart(surface, scene, threads), run);
-  const bool one_sided = options.facade.has_value() || evidence.one_sided.has_value();
+  const bool is_open = evidence.surroundings.kind == SceneKind::facade;
+  const bool one_sided = is_open || evidence.one_sided.has_value();
   UnsupportedTriangles unsupported = run.stage("trim", [&] {
-    auto marked = unsupported_triangles(t, model, rays_of(cloud, scene), one_sided, surface, threads);
+    const std::vector<SightLine> rays = rays_of(cloud, scene);
+    const RangeGrid pixels(cloud, scene.sample_of_row, t, rays);
+    auto marked = unsupported_triangles(t, model, rays, one_sided, pixels, surface, threads);
+    if (is_open && !options.trim && !options.base) {
+      // The hull that a façade ends at hangs between its outermost samples like a curtain.
+      trim(marked_at_rim(surface.mesh, marked), surface);
+      marked = unsupported_triangles(t, model, rays, one_sided, pixels, surface, threads);
+    }
     const double share = share_of_area(surface, marked);
     return UnsupportedTriangles{std::move(marked), share};
   });
-  if (options.trim) {
-    trim(std::move(unsupported.marked), surface);
+  if (options.trim) trim(std::move(unsupported.marked), surface);
+  if (options.trim || (is_open && !options.base)) {
     describe(filter_components(surface, options.components, t, model, labels.labels(), threads), run);
     require_trimmed(surface);
   }

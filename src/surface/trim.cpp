@@ -80,21 +80,38 @@ std::size_t mark_smaller_fans(const TriangleMesh& mesh, std::vector<std::uint8_t
 } // namespace
 
 std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& t, const SampleModel& model,
-                                                std::span<const SightLine> lines, bool one_sided,
+                                                std::span<const SightLine> lines, bool one_sided, const RangeGrid& grid,
                                                 const Surface& surface, const Threads& threads) {
   std::vector<std::uint8_t> unsupported(surface.mesh.triangles.size(), 0);
   for_each_index(threads, unsupported.size(), [&](std::size_t i) {
     const std::array<Vec3, 3> p = corners(surface.mesh, i);
+    std::array<SampleIndex, 3> samples;
     double longest = 0, spacing = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 3; ++k) {
-      const SampleIndex s = surface.sample_of[surface.mesh.triangles[i][k]];
+      const SampleIndex s = samples[k] = surface.sample_of[surface.mesh.triangles[i][k]];
       longest = std::max(longest, distance(p[k], p[(k + 1) % 3]));
       spacing = std::min(spacing, static_cast<double>(model.spacing[s.value]));
     }
-    unsupported[i] = surface.support[i] < least_support || longest > longest_kept * spacing ||
-                     !is_seen(t, lines, one_sided, surface, i);
+    const Between between = grid.empty() ? Between::unknown : grid.between(samples);
+    unsupported[i] = between == Between::jump || longest > longest_kept * spacing ||
+                     (between == Between::unknown &&
+                      (surface.support[i] < least_support || !is_seen(t, lines, one_sided, surface, i)));
   });
   return unsupported;
+}
+
+std::vector<std::uint8_t> marked_at_rim(const TriangleMesh& mesh, std::span<const std::uint8_t> marked) {
+  DisjointSets joined(mesh.triangles.size());
+  std::vector<std::uint32_t> at_rim;
+  for_each_edge(sorted_sides(mesh.triangles, mesh.vertices.size(), Threads(1)), [&](std::span<const Side> edge) {
+    if (edge.size() == 1 && marked[edge[0].triangle()]) at_rim.push_back(edge[0].triangle());
+    if (edge.size() == 2 && marked[edge[0].triangle()] && marked[edge[1].triangle()])
+      joined.unite(edge[0].triangle(), edge[1].triangle());
+  });
+  std::vector<std::uint8_t> is_rim(mesh.triangles.size(), 0), result(mesh.triangles.size(), 0);
+  for (const std::uint32_t t : at_rim) is_rim[joined.find(t)] = 1;
+  for (std::uint32_t t = 0; t < result.size(); ++t) result[t] = marked[t] && is_rim[joined.find(t)];
+  return result;
 }
 
 double share_of_area(const Surface& surface, std::span<const std::uint8_t> marked) {

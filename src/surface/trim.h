@@ -6,19 +6,22 @@
 #include <eigencrust/stages.h>
 
 #include "samples/sample_model.h"
+#include "surface/range_grid.h"
 
 namespace eigencrust {
 
 /// The triangles that the samples do not bear out (1): their support is below 1/4, or their longest edge exceeds 10
 /// times the smallest local spacing of their vertices (of isolated ones: that of the surface nearest to them), or no
 /// line of sight of their vertices meets their front within 85° of the normal, in a one-sided scan: none of some vertex
-/// (not in the paper; docs/decisions/0020). Expects surface.support. \param lines as sight_lines() gives them; may be
-/// empty
+/// (not in the paper; docs/decisions/0020). Where a scanner's grid knows all three vertices it decides instead of
+/// support and lines. Expects surface.support. \param lines as sight_lines() gives them; may be empty
 std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& tetrahedralization, const SampleModel& model,
-                                                std::span<const SightLine> lines, bool one_sided,
+                                                std::span<const SightLine> lines, bool one_sided, const RangeGrid& grid,
                                                 const Surface& surface, const Threads& threads);
 /// The share of the surface's area that is marked.
 double share_of_area(const Surface& surface, std::span<const std::uint8_t> marked);
+/// Of the triangles marked those that are at the rim, or joined to it by others that are marked.
+std::vector<std::uint8_t> marked_at_rim(const TriangleMesh& mesh, std::span<const std::uint8_t> marked);
 /// What unsupported_triangles() marked, and its share.
 struct UnsupportedTriangles {
   std::vector<std::uint8_t> marked;

@@ -6,10 +6,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
 #include <algorithm>
-#include <bit>
-#include <limits>
 #include <memory>
-#include <random>
 #include <thread>
 
 #include <eigencrust/error.h>
@@ -19,6 +16,7 @@
 #include "geometry/tetrahedron.h"
 #include "parallel/compressed_rows.h"
 #include "tetrahedra/growth.h"
+#include "tetrahedra/insertion_rounds.h"
 
 namespace eigencrust {
 namespace {
@@ -38,8 +36,7 @@ constexpr double cube_half_side_in_diagonals = 10;
 // A sample among thousands of tetrahedra takes a thousandth of a second, any other a thousandth of that.
 constexpr std::uint32_t samples_between_looks = 32;
 
-/// In random rounds, each four times as large as the one before and along the Hilbert curve (BRIO; Amenta, Choi, Rote
-/// 2003).
+/// The corners of the cube, then the samples in rounds along the Hilbert curve.
 void insert_all(Delaunay& delaunay, const IndexedArray<SampleIndex, Vec3>& positions, std::uint32_t samples,
                 const WatchGrowth& watch) {
   Delaunay::Cell_handle hint;
@@ -53,12 +50,7 @@ void insert_all(Delaunay& delaunay, const IndexedArray<SampleIndex, Vec3>& posit
     hint = v->cell();
   };
   for (std::uint32_t i = samples; i < positions.size(); ++i) insert(i);
-  std::mt19937_64 random;
-  std::vector<std::vector<std::uint32_t>> rounds(1 + std::numeric_limits<std::uint64_t>::digits);
-  for (std::uint32_t i = 0; i < samples; ++i)
-    rounds[static_cast<std::size_t>(std::countr_zero(random())) / 2].push_back(i);
-  for (std::size_t r = rounds.size(); r-- > 0;)
-    for (const std::uint32_t i : rounds[r]) insert(i);
+  for (const std::uint32_t i : in_rounds(samples)) insert(i);
 }
 
 /// Which vertex goes where so that the smallest comes first and the second smallest second. Only even

@@ -70,7 +70,7 @@ test_what_is_read_is_not_written() {
       fill_words "$verb" "$reads"
       local output=result.ply extra=()
       [ "$verb" != render ] || output=result.png
-      [ "$write" = -o ] || extra=(-o "$output")
+      [ "$write" = -o ] || ! grep -qx -- -o <<<"$writes" || extra=(-o "$output")
       for read in $reads; do
         for way in same dotted link hard through; do
           rm -f read.* other.*

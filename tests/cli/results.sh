@@ -231,6 +231,70 @@ test_trim_keeps_what_was_seen() {
   equal "one-sided" "$(value report.json /one_sided)" null
 }
 
+test_ground_has_rims_and_no_volume() {
+  awk 'BEGIN { for (i = 0; i < 1600; ++i) { x = i % 40; y = int(i / 40); print x, y, 2 * sin(x / 5) * cos(y / 6) } }' \
+    >ground.xyz
+  expect 0 ground.xyz -o open.ply --report report.json
+  grep -q 'closed: no (.* 1 rim)' out || die "the rim is not told"
+  grep -q '% of it covered by samples' out || die "the share covered is not told"
+  grep -q 'one side: seen from +z' out || die "the side is not told"
+  if grep -Eq 'volume|inward' out err; then die "an open mesh has no volume and looks nowhere"; fi
+  equal scene "$(value report.json /scene)" facade
+  equal facade "$(value report.json /facade)" +z
+  equal volume "$(value report.json /mesh/volume)" null
+  expect 6 check open.ply
+  if grep -Eq 'volume|inward' out; then die "an open mesh has no volume and looks nowhere"; fi
+  expect 0 ground.xyz -o closed.ply --facade off --report report.json
+  equal scene "$(value report.json /scene)" body
+}
+
+test_base_closes_ground() {
+  awk 'BEGIN { for (i = 0; i < 6400; ++i) { x = (i % 80) / 4 - 10; y = int(i / 80) / 4 - 10; r = sqrt(x * x + y * y);
+    print x, y, r < 4 ? 2.6 * (1 - r / 4) : 0 } }' >pile.xyz
+  expect 0 pile.xyz -o pile.ply --base --report report.json
+  grep -q 'above the plane of the rim' out || die "the volume of the pile is not told"
+  expect 0 check pile.ply --json
+  value report.json /base/volume_above_rim | awk '{ exit !($1 > 42.7 && $1 < 44.5) }' || die "the pile has 43.56"
+  expect_error 2 "leave out one" pile.xyz -o trimmed.ply --base --trim
+  sphere 1000 >ball.xyz
+  expect_error 2 "--facade +z" ball.xyz -o ball.ply --base
+}
+
+test_rooms_are_their_free_space() {
+  # A cube from within.
+  awk 'BEGIN { print "x y z sx sy sz"; n = 20
+    for (i = 0; i <= n; ++i) for (j = 0; j <= n; ++j) for (k = 0; k <= n; ++k)
+      if (i % n == 0 || j % n == 0 || k % n == 0) print i / 5, j / 5, k / 5, 1.9, 2.2, 1.6 }' >room.txt
+  expect 0 room.txt -o room.ply --report report.json
+  grep -q 'interior: free space of 64, walls of 96' out || die "the free space is not told"
+  if grep -Eq 'volume|inward' out; then die "a room has free space, and looks to the scanners"; fi
+  equal scene "$(value report.json /scene)" interior
+  expect 0 check room.ply
+  expect 0 room.txt -o body.ply --sensors none --report report.json
+  equal scene "$(value report.json /scene)" body
+}
+
+# One turn of a scanner on the road between houses: nothing but the user knows where it stood.
+test_what_is_hardly_a_body_names_options_that_work() {
+  awk '
+    BEGIN { turn = atan2(0, -1) / 180
+      for (beam = -9; beam <= 31; beam += 2) for (k = 0; k < 360; ++k) {
+        x = cos(beam * turn) * cos(k * turn); y = cos(beam * turn) * sin(k * turn); z = sin(beam * turn)
+        far = 20 / (x * x > 1e-6 ? sqrt(x * x) : 1e-3); if (33 / sqrt(y * y + 1e-6) < far) far = 33 / sqrt(y * y + 1e-6)
+        if (z < 0 && -2 / z < far) far = -2 / z
+        print far * x, far * y, far * z } }' >street.xyz
+  expect 0 street.xyz -o body.ply
+  grep -q 'ground with what stands on it, --facade +z.* --sensor 0,0,0' err || die "the options are not named"
+  expect 0 street.xyz -o ground.ply --facade +z
+  grep -q '1 component, genus 0' out || die "the street is not in one piece"
+  grep -q 'one side: seen from +z, solid behind' out || die "the option does not work"
+  expect 0 street.xyz -o free.ply --sensor 0,0,0
+  grep -q 'interior: free space of' out || die "the sensor does not tell the free space"
+  sphere 1000 >ball.xyz
+  expect 0 ball.xyz -o ball.ply
+  [ ! -s err ] || die "a ball is a body: $(cat err)"
+}
+
 test_named_points_come_from_files() {
   { sphere 3000; sphere 1000 0.5; } >cloud.xyz
   echo '0 0 0' >middle.xyz

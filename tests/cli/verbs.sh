@@ -16,7 +16,7 @@ test_check_accepts_a_closed_mesh() {
 test_check_refuses_an_open_mesh() {
   open_tetrahedron >a.off
   expect 6 check a.off
-  grep -q 'closed: no (3 boundary edges)' out || die "boundary edges not told"
+  grep -q 'closed: no (3 boundary edges, 1 rim)' out || die "boundary edges not told"
   [ ! -s err ] || die "a finding is no error message"
   expect 6 check a.off --json
   equal "boundary edges" "$(value out /boundary_edges)" 3

@@ -16,9 +16,21 @@ cmake -S "$here" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/installed 
 cmake --build "$work/build"
 "$work/build/consumer" "$work/sphere.ply" "$work/sphere.png"
 "$work/build/method"
+"$work/build/c_program"
 if ldd "$work/build/method" | grep -E 'libpng|libcrypto|libpugixml|libz\.'; then
   echo "run.sh: the method alone asks for these"
   exit 1
+fi
+
+# The same without CMake, as pkg-config says.
+if command -v pkg-config >/dev/null; then
+  export PKG_CONFIG_PATH
+  PKG_CONFIG_PATH=$(dirname "$(find "$work/installed here" -name eigencrust.pc)")
+  static=--static
+  [ -z "$(find "$work/installed here" -name 'libeigencrust.so')" ] || static=
+  # The folder's name holds a blank, which pkg-config escapes: hence eval.
+  eval "$compiler -x c++ -std=c++20 $here/method.cpp -x none -o $work/by_pkg_config $(pkg-config --cflags --libs $static eigencrust)"
+  "$work/by_pkg_config"
 fi
 
 # The program takes the bundled scan from beside itself.

@@ -112,28 +112,19 @@ TEST(Session, RefusesWhatCannotBe) {
   EXPECT_NO_THROW(session.label(middle, {})); // and goes on
 }
 
-TEST(Session, NamingAPointOnTheBunnyCostsLittle) {
+TEST(Session, NamingAPointOnTheBunnyDoesNotTriangulateAgain) {
   const auto file = data_path("bunny/bunny_raw.ply");
   EIGENCRUST_NEED_DATA(file);
-  const auto seconds_since = [](auto start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
   const PointCloud cloud = read_point_cloud(file);
-  const auto start = std::chrono::steady_clock::now();
   const Result anew = reconstruct(cloud);
-  const double first = seconds_since(start);
   Session session(cloud);
-  const Vec3 centre = anew.report.mesh.bounds.centre();
-  const auto begin = std::chrono::steady_clock::now();
-  const Result named = session.label({}, Points{centre});
-  const double again = seconds_since(begin);
-  RecordProperty("first", std::to_string(first));
-  RecordProperty("again", std::to_string(again));
-  for (const StageReport& stage : named.report.stages) RecordProperty(stage.name, std::to_string(stage.seconds));
+  const Result named = session.label({}, Points{anew.report.mesh.bounds.centre()});
   EXPECT_EQ(named.report.mesh.components, 1u);
   EXPECT_EQ(named.report.mesh.genus, anew.report.mesh.genus);
   EXPECT_NEAR(named.report.mesh.volume / anew.report.mesh.volume, 1, 0.001);
-  EXPECT_LT(again, 0.5 * first); // 0.3 is the aim; other programs may be running
+  for (const StageReport& stage : named.report.stages)
+    for (const char* costly : {"samples", "delaunay", "stars", "sample_model", "pole_graph", "partition_poles"})
+      EXPECT_NE(stage.name, costly);
 }
 
 } // namespace

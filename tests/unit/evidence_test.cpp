@@ -15,7 +15,8 @@ using clouds::Prepared;
 
 Labels known_of(const Tetrahedralization& t, const Points& outside, const Points& inside,
                 std::optional<Axis> facade = {}, unsigned threads = 1) {
-  return known_labels(t, vertex_stars(t, Threads(threads)), outside, inside, facade, Threads(threads));
+  return known_labels(t, vertex_stars(t, Threads(threads)), outside, inside,
+                      facade ? Surroundings{SceneKind::facade, *facade, {}} : Surroundings{}, Threads(threads));
 }
 
 ErrorKind kind_of(const Tetrahedralization& t, const Points& outside, const Points& inside,

@@ -7,6 +7,7 @@
 
 #include <eigencrust/io.h>
 
+#include "samples/check_cloud.h"
 #include "support.h"
 
 namespace eigencrust {
@@ -115,6 +116,30 @@ TEST(IoAppendScan, SensorsArePutBehindOneAnother) {
   PointCloud unknown = seen_by(1, {}, {});
   append_scan(unknown, seen_by(1, {}, {}));
   EXPECT_TRUE(unknown.sensor_of.empty());
+}
+
+TEST(IoAppendScan, GridsStayWithTheirScans) {
+  const auto frame = [](ScanGrid grid, std::vector<std::uint32_t> cell) {
+    PointCloud cloud;
+    cloud.points.resize(cell.size());
+    cloud.grids = {grid};
+    cloud.cell = std::move(cell);
+    return cloud;
+  };
+  PointCloud plain;
+  plain.points.resize(1);
+  PointCloud cloud = plain;
+  append_scan(cloud, frame({3, 2}, {5, no_index}));
+  append_scan(cloud, plain);
+  append_scan(cloud, frame({2, 2}, {3}));
+  EXPECT_EQ(cloud.grids, (std::vector<ScanGrid>{{}, {3, 2}, {}, {2, 2}}));
+  EXPECT_THAT(cloud.cell, ElementsAre(no_index, 5u, no_index, no_index, 3u));
+  EXPECT_NO_THROW(check_cloud(cloud));
+  PointCloud many = plain; // of so many scans none is counted
+  many.scan_index = {4000000000u};
+  append_scan(many, frame({3, 2}, {5, 4}));
+  EXPECT_TRUE(many.grids.empty());
+  EXPECT_TRUE(many.cell.empty());
 }
 
 TEST(IoAppendScan, MissingAttributesAreNaNOrZero) {

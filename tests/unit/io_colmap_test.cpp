@@ -45,7 +45,7 @@ class IoColmap : public ::testing::Test {
     write_bytes(folder_ / "fused.ply.vis", visibility);
   }
   PointCloud read(const ReadOptions& options = {}) {
-    notes_.clear();
+    notes_ = {};
     return read_point_cloud(folder_ / "fused.ply", options, &notes_);
   }
   std::string error() {
@@ -53,7 +53,7 @@ class IoColmap : public ::testing::Test {
   }
 
   TempDir folder_;
-  std::vector<std::string> notes_;
+  ReadNotes notes_;
 };
 
 TEST_F(IoColmap, CameraNearestToTheMeanDirection) {
@@ -66,7 +66,7 @@ TEST_F(IoColmap, CameraNearestToTheMeanDirection) {
   // From (1, 0, 0) the unit directions are (-0.10, 0, 1.00), (0.29, 0, 0.96) and (-0.49, -0.49, -0.73); they
   // add up to (-0.30, -0.49, 1.23). Its products with them are 1.25, 1.09 and -0.50: the first.
   EXPECT_THAT(cloud.sensor_of, ElementsAre(PointCloud::no_sensor, 0, 0));
-  EXPECT_THAT(notes_, ElementsAre(HasSubstr("fused.ply.vis and")));
+  EXPECT_THAT(notes_.notes, ElementsAre(HasSubstr("fused.ply.vis and")));
   EXPECT_THAT(read({.sensors = false}).sensors, IsEmpty());
 }
 
@@ -91,7 +91,7 @@ TEST_F(IoColmap, TiesGoToTheOneNamedFirst) {
 
 TEST_F(IoColmap, WithoutImagesTheVisibilityIsNotUsed) {
   EXPECT_THAT(read().sensors, IsEmpty());
-  EXPECT_THAT(notes_, ElementsAre(HasSubstr("fused.ply.vis is not used")));
+  EXPECT_THAT(notes_.notes, ElementsAre(HasSubstr("fused.ply.vis is not used")));
 }
 
 TEST_F(IoColmap, FilesThatDoNotFit) {

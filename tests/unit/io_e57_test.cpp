@@ -52,7 +52,7 @@ const std::string quarter_turn =
 class IoE57 : public ::testing::Test {
  protected:
   PointCloud read(const std::string& bytes) {
-    notes_.clear();
+    notes_ = {};
     const auto path = folder_ / "a.e57";
     std::filesystem::remove(path);
     write_bytes(path, bytes);
@@ -63,7 +63,7 @@ class IoE57 : public ::testing::Test {
   }
 
   TempDir folder_;
-  Notes notes_;
+  ReadNotes notes_;
 };
 
 TEST(IoCrc32c, IsThatOfTheRfc) {
@@ -80,7 +80,7 @@ TEST_F(IoE57, FloatsAndDoubles) {
   EXPECT_TRUE(cloud.scan_index.empty());
   EXPECT_TRUE(cloud.sensors.empty());
   EXPECT_TRUE(cloud.sensor_of.empty());
-  EXPECT_THAT(notes_, ElementsAre(HasSubstr("position is not known")));
+  EXPECT_THAT(notes_.notes, ElementsAre(HasSubstr("position is not known")));
 
   E57TestScan scan;
   scan.records = 1;
@@ -157,7 +157,7 @@ TEST_F(IoE57, RotationOfLengthZeroIsNone) {
   E57TestScan scan = scan_of({{1, 2, 3}});
   scan.before_points = pose("<rotation type=\"Structure\"/>", moved_by_1_2_3);
   EXPECT_THAT(read(e57_file({scan})).points, ElementsAre(Vec3{2, 4, 6}));
-  EXPECT_THAT(notes_, ElementsAre(HasSubstr("0 0 0 0")));
+  EXPECT_THAT(notes_.notes, ElementsAre(HasSubstr("0 0 0 0")));
 }
 
 TEST_F(IoE57, InvalidPointsAreLeftOut) {
@@ -168,7 +168,7 @@ TEST_F(IoE57, InvalidPointsAreLeftOut) {
   EXPECT_THAT(cloud.points, ElementsAre(Vec3{1, 1, 1}, Vec3{4, 4, 4}));
   ASSERT_EQ(cloud.attributes.size(), 1u);
   EXPECT_EQ(attribute_value(cloud.attributes[0], 1), 40);
-  EXPECT_THAT(notes_[0], HasSubstr("2 points marked as invalid"));
+  EXPECT_THAT(notes_.notes[0], HasSubstr("2 points marked as invalid"));
 }
 
 // range 2, azimuth 90 degrees, elevation 30 degrees: (0, sqrt 3, 1)

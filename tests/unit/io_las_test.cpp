@@ -34,7 +34,7 @@ const std::string wave = std::string(29, 'w');
 class IoLas : public ::testing::Test {
  protected:
   PointCloud read(const std::string& bytes) {
-    notes_.clear();
+    notes_ = {};
     write_bytes(folder_ / "a.las", bytes);
     return read_point_cloud(folder_ / "a.las", {}, &notes_);
   }
@@ -48,7 +48,7 @@ class IoLas : public ::testing::Test {
   }
 
   TempDir folder_;
-  std::vector<std::string> notes_;
+  ReadNotes notes_;
 };
 
 // Each format with its sizes by the specification; two equal points, so that rows do not slip.
@@ -71,7 +71,7 @@ TEST_F(IoLas, AllPointFormats) {
     las.record_bytes = static_cast<std::uint16_t>(point.size());
     const PointCloud cloud = read(las.bytes());
     EXPECT_THAT(cloud.points, ElementsAre(Vec3{101, 198, 303}, Vec3{101, 198, 303}));
-    EXPECT_THAT(notes_, IsEmpty());
+    EXPECT_THAT(notes_.notes, IsEmpty());
     EXPECT_EQ(value(cloud, "intensity", 1), 40000);
     EXPECT_EQ(value(cloud, "return_number", 1), format < 6 ? 2 : 9);
     EXPECT_EQ(value(cloud, "number_of_returns"), format < 6 ? 5 : 15);
@@ -107,7 +107,7 @@ TEST_F(IoLas, AllPointFormats) {
 TEST_F(IoLas, WithheldPointsAreLeftOut) {
   LasTestFile las{.records = {old_point(0x80), old_point()}};
   EXPECT_EQ(read(las.bytes()).points.size(), 1u);
-  EXPECT_THAT(notes_, ElementsAre("1 point marked as withheld left out"));
+  EXPECT_THAT(notes_.notes, ElementsAre("1 point marked as withheld left out"));
   las.minor = 0;
   EXPECT_EQ(value(read(las.bytes()), "classification"), 128);
   const LasTestFile modern{
@@ -128,7 +128,7 @@ TEST_F(IoLas, ExtraBytes) {
   las.variable_records = las_record("other", 4, "abc") + las_record("LASF_Spec", 4, descriptions);
   las.variable_count = 2;
   const PointCloud cloud = read(las.bytes());
-  EXPECT_THAT(notes_, ElementsAre("8 bytes of each point without a description left out"));
+  EXPECT_THAT(notes_.notes, ElementsAre("8 bytes of each point without a description left out"));
   EXPECT_EQ(value(cloud, "time", 1), 0x1p63);
   const Attribute& pair = *find_attribute(cloud.attributes, "pair");
   EXPECT_TRUE(pair.is_list);
@@ -147,17 +147,17 @@ TEST_F(IoLas, ExtraBytes) {
   const PointCloud shorter = read(las.bytes());
   EXPECT_EQ(value(shorter, "intensity_2"), 0.25);
   EXPECT_EQ(find_attribute(shorter.attributes, "triple"), nullptr);
-  EXPECT_THAT(notes_, ElementsAre("extra bytes 'triple' do not fit into the points: left out"));
+  EXPECT_THAT(notes_.notes, ElementsAre("extra bytes 'triple' do not fit into the points: left out"));
 }
 
 TEST_F(IoLas, VariableRecordsNeedNotBeSound) {
   LasTestFile las{.records = {old_point()}};
   las.variable_count = 4000000000u;
   EXPECT_EQ(read(las.bytes()).points.size(), 1u);
-  EXPECT_THAT(notes_, ElementsAre(HasSubstr("promises 4000000000 variable length records, there is room for 0")));
+  EXPECT_THAT(notes_.notes, ElementsAre(HasSubstr("promises 4000000000 variable length records, there is room for 0")));
   las.variable_records = las_record("a", 1, "xyz") + las_record("b", 2, "long").substr(0, 56);
   EXPECT_EQ(read(las.bytes()).points.size(), 1u);
-  EXPECT_THAT(notes_, ElementsAre(HasSubstr("there is room for 1")));
+  EXPECT_THAT(notes_.notes, ElementsAre(HasSubstr("there is room for 1")));
 }
 
 TEST_F(IoLas, KnownByItsContent) {

@@ -22,7 +22,7 @@ const std::string six_points = npy_file("<f8", "(2, 3)", six);
 class IoNpz : public ::testing::Test {
  protected:
   PointCloud read(const std::string& bytes, const char* name = "a.npz") {
-    notes_.clear();
+    notes_ = {};
     write_bytes(folder_ / name, bytes);
     return read_point_cloud(folder_ / name, {}, &notes_);
   }
@@ -32,7 +32,7 @@ class IoNpz : public ::testing::Test {
   std::string npy_error(const std::string& bytes) { return error(bytes, "a.npy"); }
 
   TempDir folder_;
-  std::vector<std::string> notes_;
+  ReadNotes notes_;
 };
 
 TEST_F(IoNpz, OrdersAndTypesOfOneArray) {
@@ -94,7 +94,8 @@ TEST_F(IoNpz, ArraysByName) {
   EXPECT_EQ(attribute_value(*find_attribute(cloud.attributes, "uv_1"), 1), 4);
   EXPECT_THAT(cloud.sensors, ElementsAre(Sensor{{7, 8, 9}, false})); // the same place: one sensor
   EXPECT_THAT(cloud.sensor_of, ElementsAre(0, 0));
-  EXPECT_THAT(notes_, ElementsAre(HasSubstr("'name' of shape (2,) left out"), HasSubstr("'faces' of shape (1, 3)")));
+  EXPECT_THAT(notes_.notes,
+              ElementsAre(HasSubstr("'name' of shape (2,) left out"), HasSubstr("'faces' of shape (1, 3)")));
 }
 
 TEST_F(IoNpz, OneSensorForAllPoints) {

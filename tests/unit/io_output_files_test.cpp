@@ -52,6 +52,37 @@ TEST(OutputFiles, NoneAppearsWhereOneFails) {
   EXPECT_EQ(read_bytes(folder / "a"), "old");
 }
 
+TEST(OutputFiles, TheFileOfOffsetsAppearsWithTheMesh) {
+  const TempDir folder;
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  WriteOptions shifted;
+  shifted.shift = {-512000, -5412000, 0.5};
+  const auto write = [&](const WriteOptions& options, bool finishes) {
+    OutputFiles files;
+    files.add_mesh(folder / "a.stl", mesh, options);
+    if (finishes) files.put_in_place();
+  };
+  write(shifted, false);
+  EXPECT_THAT(names_in(folder.path()), testing::IsEmpty());
+  write(shifted, true);
+  EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("a.stl", "a.stl.offset.txt"));
+  EXPECT_THAT(read_bytes(folder / "a.stl.offset.txt"), testing::EndsWith("\n512000 5412000 -0.5\n"));
+  write({}, false); // what did not take its place leaves the older pair as it is
+  EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("a.stl", "a.stl.offset.txt"));
+  write({}, true);
+  EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("a.stl"));
+  write_bytes(folder / "a.stl.offset.txt", "of somebody else");
+  write({}, true);
+  EXPECT_EQ(read_bytes(folder / "a.stl.offset.txt"), "of somebody else");
+  // Nothing can be beside a device.
+  WriteOptions to_device = shifted;
+  to_device.format = "stl";
+  EXPECT_THAT(write_mesh("/dev/null", mesh, to_device).warnings,
+              testing::ElementsAre(testing::HasSubstr("add 512000 5412000 -0.5 to its coordinates")));
+}
+
 TEST(OutputFiles, AHandlerRemovesWhatIsNotInPlace) {
   const TempDir folder;
   OutputFiles files;

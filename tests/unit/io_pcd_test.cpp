@@ -31,7 +31,7 @@ std::string sized(const std::string& packed, std::uint32_t size) {
 class IoPcd : public ::testing::Test {
  protected:
   PointCloud read(const std::string& bytes, PcdViewpoint mode = PcdViewpoint::automatic) {
-    notes_.clear();
+    notes_ = {};
     write_bytes(folder_ / "a.pcd", bytes);
     return read_point_cloud(folder_ / "a.pcd", {.pcd_viewpoint = mode}, &notes_);
   }
@@ -40,7 +40,7 @@ class IoPcd : public ::testing::Test {
   }
 
   TempDir folder_;
-  std::vector<std::string> notes_;
+  ReadNotes notes_;
 };
 
 TEST(IoLzf, LiteralsAndCopies) {
@@ -157,21 +157,22 @@ TEST_F(IoPcd, ViewpointModes) {
     EXPECT_THAT(cloud.points, ElementsAre(Vec3{1, 2, 3}));
     EXPECT_THAT(cloud.sensors, ElementsAre(Sensor{{10, 20, 30}, false}));
     EXPECT_THAT(cloud.sensor_of, ElementsAre(0));
-    EXPECT_THAT(notes_, ElementsAre("VIEWPOINT (10, 20, 30) read as the sensor's position: the points were not moved"));
+    EXPECT_THAT(notes_.notes,
+                ElementsAre("VIEWPOINT (10, 20, 30) read as the sensor's position: the points were not moved"));
   }
   const PointCloud moved = read(bytes, PcdViewpoint::pose);
   EXPECT_LT(distance(moved.points[0], {8, 21, 33}), 1e-12);
   EXPECT_EQ(moved.sensors[0].place, (Vec3{10, 20, 30}));
   EXPECT_NEAR(attribute_value(*find_attribute(moved.attributes, "ny"), 0), 1, 1e-7);
-  EXPECT_THAT(notes_, ElementsAre(HasSubstr("read as the scan's pose")));
+  EXPECT_THAT(notes_.notes, ElementsAre(HasSubstr("read as the scan's pose")));
   EXPECT_THAT(read(bytes, PcdViewpoint::none).sensors, IsEmpty());
-  EXPECT_THAT(notes_, ElementsAre(HasSubstr("not used")));
+  EXPECT_THAT(notes_.notes, ElementsAre(HasSubstr("not used")));
 }
 
 TEST_F(IoPcd, ViewpointAtTheOrigin) {
   const std::string bytes = header("1", "ascii", "0 0 0 1 0 0 0") + "1 2 3\n";
   EXPECT_THAT(read(bytes).sensors, IsEmpty());
-  EXPECT_THAT(notes_, ElementsAre("VIEWPOINT (0, 0, 0) read as not known"));
+  EXPECT_THAT(notes_.notes, ElementsAre("VIEWPOINT (0, 0, 0) read as not known"));
   EXPECT_THAT(read(bytes, PcdViewpoint::sensor).sensors, ElementsAre(Sensor{}));
   EXPECT_THAT(read(bytes, PcdViewpoint::pose).sensors, ElementsAre(Sensor{}));
   EXPECT_THAT(read(header("1", "ascii") + "1 2 3\n", PcdViewpoint::sensor).sensors, IsEmpty());

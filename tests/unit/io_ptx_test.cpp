@@ -19,7 +19,7 @@ const std::string turned = "10 20 30\n0 1 0\n-1 0 0\n0 0 1\n0 1 0 0\n-1 0 0 0\n0
 class IoPtx : public ::testing::Test {
  protected:
   PointCloud read(const std::string& text, const char* name = "a.ptx") {
-    notes_.clear();
+    notes_ = {};
     write_bytes(folder_ / name, text);
     return read_point_cloud(folder_ / name, {}, &notes_);
   }
@@ -28,7 +28,7 @@ class IoPtx : public ::testing::Test {
   }
 
   TempDir folder_;
-  std::vector<std::string> notes_;
+  ReadNotes notes_;
 };
 
 TEST_F(IoPtx, SeveralScansWithTheirMatrices) {
@@ -38,7 +38,7 @@ TEST_F(IoPtx, SeveralScansWithTheirMatrices) {
   EXPECT_THAT(cloud.scan_index, ElementsAre(0, 0, 1));
   EXPECT_THAT(cloud.sensors, ElementsAre(Sensor{{0, 0, 0}, false}, Sensor{{10, 20, 30}, false}));
   EXPECT_THAT(cloud.sensor_of, ElementsAre(0, 0, 1));
-  EXPECT_THAT(notes_, ElementsAre(HasSubstr("1 empty return (0 0 0) left out")));
+  EXPECT_THAT(notes_.notes, ElementsAre(HasSubstr("1 empty return (0 0 0) left out")));
   const Attribute* red = find_attribute(cloud.attributes, "red");
   ASSERT_NE(red, nullptr);
   EXPECT_EQ(red->type, ScalarType::uint8);
@@ -62,14 +62,14 @@ TEST_F(IoPtx, FarFromTheOriginWithoutTransformation) {
   const PointCloud cloud = read("2\n1\n" + identity + "637012.24 849028.31 431.66 0\n636896.33 849087.7 446.39 0\n");
   EXPECT_TRUE(cloud.sensors.empty());
   EXPECT_TRUE(cloud.sensor_of.empty());
-  EXPECT_THAT(notes_, ElementsAre(HasSubstr("taken as unknown")));
+  EXPECT_THAT(notes_.notes, ElementsAre(HasSubstr("taken as unknown")));
 }
 
 TEST_F(IoPtx, PositionAndMatrixDiffer) {
   std::string header = turned;
   header.replace(0, 8, "11 20 30");
   EXPECT_THAT(read("1\n1\n" + header + "1 2 3 0\n").sensors, ElementsAre(Sensor{{10, 20, 30}, false}));
-  EXPECT_THAT(notes_, ElementsAre(HasSubstr("differs from the translation")));
+  EXPECT_THAT(notes_.notes, ElementsAre(HasSubstr("differs from the translation")));
 }
 
 TEST_F(IoPtx, EmptyScansAndLineEnds) {

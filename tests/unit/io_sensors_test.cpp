@@ -21,7 +21,7 @@ using ::testing::IsEmpty;
 class IoSensors : public ::testing::Test {
  protected:
   PointCloud read(const char* name, const std::string& bytes, const ReadOptions& options = {}) {
-    notes_.clear();
+    notes_ = {};
     write_bytes(folder_ / name, bytes);
     return read_point_cloud(folder_ / name, options, &notes_);
   }
@@ -41,7 +41,7 @@ class IoSensors : public ::testing::Test {
   }
 
   TempDir folder_;
-  std::vector<std::string> notes_;
+  ReadNotes notes_;
 };
 
 TEST_F(IoSensors, ColumnsOfPointClouds) {
@@ -55,7 +55,7 @@ TEST_F(IoSensors, ColumnsOfPointClouds) {
     EXPECT_THAT(cloud.sensors, ElementsAre(Sensor{{1, 2, 3}, false}, Sensor{{4, 5, 6}, false}));
     EXPECT_THAT(cloud.sensor_of, ElementsAre(0, 1, 0, PointCloud::no_sensor));
     EXPECT_EQ(cloud.attributes.size(), 3u); // they stay columns, too
-    EXPECT_THAT(notes_, ElementsAre(names + " read as the sensor's position of each point"));
+    EXPECT_THAT(notes_.notes, ElementsAre(names + " read as the sensor's position of each point"));
   }
   EXPECT_EQ(read("a.xyz", "# x y z sx sy sz\n" + rows).sensors.size(), 2u);
   EXPECT_EQ(read("a.txt", rows, {.columns = {"x", "y", "z", "sx", "sy", "sz"}}).sensors.size(), 2u);

@@ -92,6 +92,47 @@ TEST(Shells, ABallInACavityNeedsNoneOfThem) {
   EXPECT_GT(nested.summary().volume, 0);
 }
 
+/// The same in a solid that goes on for ever: a room, a hollow body in it, and its cavity.
+struct NestedRoom : Nested {
+  NestedRoom() {
+    for (TetrahedronIndex i{0}; i.value < labels.size(); ++i.value)
+      labels[i] = labels[i] == Label::inside ? Label::outside : Label::inside;
+    surface = extract_surface(p.t, labels, Threads(2));
+    surface.support.assign(surface.mesh.triangles.size(), 1.0f);
+  }
+};
+
+TEST(Shells, ARoomNeedsNone) {
+  NestedRoom room;
+  std::vector<std::uint8_t> gone;
+  for (const auto& triangle : room.surface.mesh.triangles)
+    gone.push_back(norm(room.surface.mesh.vertices[triangle[0]] + room.p.t.origin) < 9);
+  drop_triangles(gone, room.surface);
+  for (const Kind kind : {Kind::supported, Kind::largest, Kind::all})
+    EXPECT_TRUE(filter_components(room.surface, {kind, 1}, room.p.t, {}, room.labels, Threads(2)).empty());
+  EXPECT_EQ(room.summary().components, 1u);
+  EXPECT_LT(room.summary().volume, 0);
+}
+
+TEST(Shells, ABodyInARoomBringsTheRoom) {
+  NestedRoom room;
+  const auto dropped = filter_components(room.surface, {Kind::largest, 1}, room.p.t, {}, room.labels, Threads(2));
+  ASSERT_EQ(dropped.size(), 1u);
+  EXPECT_EQ(dropped[0].vertices, 200u);
+  EXPECT_EQ(room.summary().components, 2u);
+  EXPECT_LT(room.summary().volume, 0);
+}
+
+TEST(Shells, InARoomNothingIsTurned) {
+  NestedRoom room;
+  const double volume = room.summary().volume;
+  ASSERT_LT(volume, 0);
+  room.set_support(10, 0.0f); // lines of sight cross the room all the same
+  EXPECT_TRUE(filter_components(room.surface, {Kind::supported, 1}, room.p.t, {}, room.labels, Threads(2)).empty());
+  EXPECT_EQ(room.summary().components, 3u);
+  EXPECT_EQ(room.summary().volume, volume);
+}
+
 TriangleMesh octahedron(const Vec3& middle, double size) {
   TriangleMesh mesh;
   for (const Vec3& v : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}})

@@ -37,7 +37,7 @@ struct Hull {
     return lines;
   }
   std::vector<std::uint8_t> unsupported(std::span<const SightLine> lines, bool one_sided) {
-    return unsupported_triangles(p.t, model, lines, one_sided, surface, threads);
+    return unsupported_triangles(p.t, model, lines, one_sided, {}, surface, threads);
   }
   [[nodiscard]] Vec3 normal(std::size_t i) const {
     const auto& [a, b, c] = surface.mesh.triangles[i];

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "evidence/surroundings.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <eigencrust/error.h>
+
+#include "samples/scales.h"
+#include "tetrahedra/segment_walk.h"
+
+namespace eigencrust {
+namespace {
+
+// Fewer samples say nothing of how they lie.
+constexpr std::uint32_t least_samples = 100;
+// So many of them are looked at.
+constexpr std::uint32_t looked_at = 2048;
+// Of ground with what stands on it, trees included, up to half of the samples are stacked; of closed bodies three
+// quarters and more.
+constexpr double most_stacked = 0.5, perhaps_stacked = 0.65;
+// Roofs without their walls have four times as much space behind them as in front, ground with objects at most as much.
+constexpr double cap_of_body = 2;
+// Lenses and plates thinner than their samples are apart are not stacked; but the hull goes along both of their sides.
+constexpr double most_on_hull = 0.5;
+
+/// Samples spread evenly over all, at most about `looked_at`.
+std::vector<SampleIndex> some_samples(const Tetrahedralization& t) {
+  std::vector<SampleIndex> some;
+  const std::uint32_t step = std::max(1u, t.sample_count / looked_at);
+  for (std::uint32_t s = 0; s < t.sample_count; s += step) some.push_back(SampleIndex{s});
+  return some;
+}
+
+double along(int axis, const Vec3& p) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+double across(int axis, const Vec3& p, const Vec3& q) {
+  return norm(p - q - along(axis, p - q) * direction_of(static_cast<Axis>(2 * axis)));
+}
+
+/// Square columns along an axis, each with those of some samples that are in it or in one beside it.
+class Columns {
+ public:
+  Columns(const Tetrahedralization& t, int axis, std::span<const SampleIndex> some, double side)
+      : axis_(axis), side_(side) {
+    for (std::uint32_t k = 0; k < some.size(); ++k) {
+      const Place place = place_of(t.positions[some[k]]);
+      for (const std::int64_t u : {-1, 0, 1})
+        for (const std::int64_t v : {-1, 0, 1}) entries_.push_back({{place[0] + u, place[1] + v}, k});
+    }
+    std::sort(entries_.begin(), entries_.end());
+  }
+  template <class Meet>
+  void for_each_near(const Vec3& p, Meet&& meet) const {
+    const Place place = place_of(p);
+    for (auto i = std::lower_bound(entries_.begin(), entries_.end(), Entry{place, 0});
+         i != entries_.end() && i->first == place; ++i)
+      meet(i->second);
+  }
+
+ private:
+  using Place = std::array<std::int64_t, 2>;
+  using Entry = std::pair<Place, std::uint32_t>;
+
+  [[nodiscard]] Place place_of(const Vec3& p) const {
+    constexpr double farthest = 1e15; // what is beyond shares the outermost columns
+    const auto number = [&](double x) {
+      return static_cast<std::int64_t>(std::clamp(std::floor(x / side_), -farthest, farthest));
+    };
+    return {number(axis_ == 0 ? p.y : p.x), number(axis_ == 2 ? p.y : p.z)};
+  }
+
+  int axis_;
+  double side_;
+  std::vector<Entry> entries_;
+};
+
+/// How far above a sample another one is, at that distance across, that nothing explains but something before or
+/// behind it.
+double unexplained_height(const SampleModel& model, SampleIndex s, double across) {
+  // Two noisy samples differ by more than that once in fifty times; the rest is for what is flat only nearly.
+  constexpr double noise_of_two = 3 * 1.42, unevenness = 0.3, steepest = 2;
+  return steepest * across + unevenness * static_cast<double>(model.spacing[s.value]) +
+         noise_of_two * static_cast<double>(model.noise[s.value]);
+}
+
+double share_stacked(const Scene& scene, int axis, const Threads& threads) {
+  const Tetrahedralization& t = scene.tetrahedralization;
+  const SampleModel& model = scene.measures.model;
+  // Isolated samples have wide spacings, which would make all columns wide.
+  const double widest = 2 * model.typical_spacing;
+  const std::vector<SampleIndex> some = some_samples(t);
+  const Columns columns(t, axis, some, widest);
+  std::vector<std::atomic<bool>> stacked(some.size()); // set, never cleared: any order gives the same
+  for_each_index(threads, t.sample_count, [&](std::size_t i) {
+    const Vec3& p = t.positions.raw()[i];
+    columns.for_each_near(p, [&](std::uint32_t k) {
+      const SampleIndex s = some[k];
+      const double aside = across(axis, p, t.positions[s]), height = std::fabs(along(axis, p - t.positions[s]));
+      if (aside <= std::min(static_cast<double>(model.spacing[s.value]), widest) &&
+          height > unexplained_height(model, s, aside))
+        stacked[k].store(true, std::memory_order_relaxed);
+    });
+  });
+  return static_cast<double>(std::count(stacked.begin(), stacked.end(), true)) / static_cast<double>(stacked.size());
+}
+
+/// How far the hull is from a sample in a direction.
+double depth_of_hull(const Scene& scene, SampleIndex s, const Vec3& direction, double far) {
+  const Tetrahedralization& t = scene.tetrahedralization;
+  SegmentWalk walk(t, scene.stars, s, t.positions[s] + far * direction);
+  while (walk.next())
+    if (t.touches_cube(walk.tetrahedron())) return std::max(0.0, walk.depth());
+  return 0;
+}
+
+double cap_of(const Scene& scene, int axis, const Threads& threads) {
+  const Tetrahedralization& t = scene.tetrahedralization;
+  Box3 box;
+  for (std::uint32_t s = 0; s < t.sample_count; ++s) box.add(t.positions.raw()[s]);
+  const double far = 2 * box.diagonal();
+  const Vec3 up = direction_of(static_cast<Axis>(2 * axis));
+  const std::vector<SampleIndex> some = some_samples(t);
+  std::vector<std::array<double, 2>> space(some.size());
+  const auto measure = [&](std::size_t k) {
+    const auto spacing = static_cast<double>(scene.measures.model.spacing[some[k].value]);
+    space[k] = {spacing * spacing * depth_of_hull(scene, some[k], -1.0 * up, far),
+                spacing * spacing * depth_of_hull(scene, some[k], up, far)};
+  };
+  for_each_index(threads, some.size(), measure, costly_block);
+  double behind = 0, before = 0, shallow = 0;
+  constexpr double unevenness = 0.05; // in spacings: planes have as much by rounding and noise, on either side
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    behind += space[k][0];
+    before += space[k][1];
+    shallow += unevenness * std::pow(static_cast<double>(scene.measures.model.spacing[some[k].value]), 3);
+  }
+  // Flat as far as can be told: a plane has no side behind it.
+  return behind + before < shallow ? std::numeric_limits<double>::infinity() : behind / std::max(before, shallow);
+}
+
+/// meet(its samples, the corner of the cube beyond)
+template <class Meet>
+void for_each_hull_triangle(const Tetrahedralization& t, Meet&& meet) {
+  for (TetrahedronIndex i{0}; i.value < t.tetrahedra.size(); ++i.value) {
+    std::array<SampleIndex, 4> corner = t.tetrahedra[i];
+    std::stable_partition(corner.begin(), corner.end(), [&](SampleIndex s) { return !t.is_corner(s); });
+    if (!t.is_corner(corner[2]) && t.is_corner(corner[3])) meet({corner[0], corner[1], corner[2]}, corner[3]);
+  }
+}
+
+/// The share of the hull's shadow along the axis that triangles among neighbouring samples cast, on the side where that
+/// is less: both sides of a closed body that is convex or flat are on its hull, of ground at most one.
+double share_on_hull(const Scene& scene, int axis) {
+  const Tetrahedralization& t = scene.tetrahedralization;
+  const Vec3 up = direction_of(static_cast<Axis>(2 * axis));
+  std::array<double, 2> short_ones{}, all{};
+  for_each_hull_triangle(t, [&](const std::array<SampleIndex, 3>& corner, SampleIndex beyond) {
+    double longest = 0, spacing = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      longest = std::max(longest, norm(t.positions[corner[(k + 1) % 3]] - t.positions[corner[k]]));
+      spacing += static_cast<double>(scene.measures.model.spacing[corner[k].value]) / 3;
+    }
+    const Vec3& p = t.positions[corner[0]];
+    const Vec3 n = cross(t.positions[corner[1]] - p, t.positions[corner[2]] - p);
+    const bool outward = dot(n, t.positions[beyond] - p) > 0, upward = (dot(n, up) > 0) == outward;
+    all[upward] += std::fabs(dot(n, up));
+    if (longest <= longest_edge * spacing) short_ones[upward] += std::fabs(dot(n, up));
+  });
+  return std::min(short_ones[0] / all[0], short_ones[1] / all[1]);
+}
+
+/// The part of the hull's area that each sample on it stands for; 0 for all others.
+std::vector<double> hull_area(const Tetrahedralization& t) {
+  std::vector<double> area(t.sample_count, 0);
+  for_each_hull_triangle(t, [&](const std::array<SampleIndex, 3>& corner, SampleIndex) {
+    const Vec3& p = t.positions[corner[0]];
+    const double third = norm(cross(t.positions[corner[1]] - p, t.positions[corner[2]] - p)) / 6;
+    for (const SampleIndex s : corner) area[s.value] += third;
+  });
+  return area;
+}
+
+/// Where no sensor is known.
+Surroundings reading_of_samples(const Scene& scene, const Threads& threads) {
+  Surroundings result;
+  if (scene.tetrahedralization.sample_count < least_samples) return result;
+  // What stands on z is taken to be ground first: of two sides of a façade nothing tells the one that was seen.
+  constexpr int z = 2;
+  const AxisReading ground = read_axis(scene, z, threads);
+  if (ground.stacked <= most_stacked && ground.cap <= cap_of_body && share_on_hull(scene, z) < most_on_hull) {
+    result.kind = SceneKind::facade;
+    return result;
+  }
+  if (ground.stacked <= perhaps_stacked) {
+    result.likely_facade = Axis::plus_z;
+    return result;
+  }
+  for (const int axis : {0, 1})
+    if (read_axis(scene, axis, threads).stacked <= most_stacked) result.likely_facade = static_cast<Axis>(2 * axis);
+  return result;
+}
+
+/// Who wants a base says that it is one side. \throws Error{usage} when the samples do not lie so along z
+Surroundings side_for_base(const Scene& scene, const Threads& threads) {
+  constexpr int z = 2;
+  if (share_stacked(scene, z, threads) > perhaps_stacked)
+    throw Error(ErrorKind::usage, "evidence",
+                "--base: the samples do not lie like ground, one above each place of a map",
+                "name the side that was seen, as --facade +z; or leave out --base where the body is closed");
+  return {SceneKind::facade, Axis::plus_z, {}};
+}
+
+} // namespace
+
+AxisReading read_axis(const Scene& scene, int axis, const Threads& threads) {
+  AxisReading reading;
+  reading.stacked = share_stacked(scene, axis, threads);
+  if (reading.stacked <= most_stacked) reading.cap = cap_of(scene, axis, threads);
+  return reading;
+}
+
+HullSight hull_sight(const Tetrahedralization& t, const VertexStars& stars, std::span<const SightLine> lines,
+                     const Threads& threads) {
+  const std::vector<double> area = hull_area(t);
+  std::vector<std::uint8_t> stays(lines.size(), 0);
+  for_each_index(
+      threads, lines.size(),
+      [&](std::size_t i) {
+        if (area[lines[i].sample.value] == 0) return;
+        SegmentWalk walk(t, stars, lines[i].sample, lines[i].target);
+        bool within = true;
+        while (within && walk.next()) within = !t.touches_cube(walk.tetrahedron());
+        stays[i] = within;
+      },
+      costly_block);
+  HullSight sight;
+  for (std::size_t begin = 0, end = 0; begin < lines.size(); begin = end) {
+    double within = 0;
+    for (; end < lines.size() && lines[end].sample == lines[begin].sample; ++end) within += stays[end];
+    const double whole = area[lines[begin].sample.value], share = within / static_cast<double>(end - begin);
+    sight.within += share * whole;
+    sight.without += (1 - share) * whole;
+  }
+  return sight;
+}
+
+Surroundings surroundings_of(const PointCloud& cloud, const Scene& scene, const Options& options,
+                             const Threads& threads) {
+  if (options.facade) return {SceneKind::facade, *options.facade, {}};
+  if (options.base) return side_for_base(scene, threads);
+  if (!options.detect_facade || options.weights == Weights::paper) return {};
+  if (cloud.sensor_of.empty()) return reading_of_samples(scene, threads);
+  const Tetrahedralization& t = scene.tetrahedralization;
+  const auto lines = sight_lines(cloud, scene.sample_of_row, t, std::vector<float>(t.sample_count, 0), {});
+  const HullSight sight = hull_sight(t, scene.stars, lines, threads);
+  return Surroundings{sight.within > sight.without ? SceneKind::interior : SceneKind::body};
+}
+
+} // namespace eigencrust

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The other methods on clouds whose surface is known.
+#include <eigencrust/eigencrust.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "clouds.h"
+#include "support.h"
+
+namespace eigencrust {
+namespace {
+
+using clouds::Points;
+constexpr double pi = std::numbers::pi;
+
+Result by(Method method, const Points& points, unsigned threads = 0) {
+  Options options;
+  options.method = method;
+  options.threads = threads;
+  return reconstruct(clouds::cloud_of(points), options);
+}
+
+constexpr std::array all{Method::eigencrust,   Method::powercrust,    Method::spectral_powercrust,
+                         Method::tight_cocone, Method::robust_cocone, Method::spectral_cocone};
+
+TEST(Crusts, CleanTorusByEachMethod) {
+  const Points points = clouds::jittered(clouds::torus(2, 0.7, 120, 42), 0.005, 7);
+  const double volume = 2 * pi * pi * 2 * 0.7 * 0.7;
+  for (const Method method : all) {
+    const Result result = by(method, points);
+    SCOPED_TRACE(to_string(method));
+    const MeshSummary& m = result.report.mesh;
+    EXPECT_TRUE(m.closed());
+    EXPECT_TRUE(m.oriented());
+    EXPECT_EQ(m.components, 1u);
+    EXPECT_EQ(m.genus, 1);
+    EXPECT_NEAR(m.volume, volume, 0.01 * volume);
+  }
+}
+
+TEST(Crusts, TightCoconeHasTheTrianglesOfEigencrustOnCleanSamples) {
+  const Points points = clouds::jittered(clouds::torus(2, 0.7, 120, 42), 0.005, 8);
+  const auto ours = clouds::triangle_set(by(Method::eigencrust, points).mesh),
+             theirs = clouds::triangle_set(by(Method::tight_cocone, points).mesh);
+  std::vector<std::array<Vec3, 3>> common;
+  std::set_intersection(ours.begin(), ours.end(), theirs.begin(), theirs.end(), std::back_inserter(common));
+  EXPECT_GE(static_cast<double>(common.size()), 0.99 * static_cast<double>(ours.size()));
+}
+
+// A cap without samples: the cocone ends there, and the smallest faces close it.
+TEST(Crusts, TightCoconeClosesAHole) {
+  Points points = clouds::sphere(3000);
+  std::erase_if(points, [](const Vec3& p) { return p.z > 0.93; });
+  const MeshSummary m = by(Method::tight_cocone, points).report.mesh;
+  EXPECT_TRUE(m.closed());
+  EXPECT_EQ(m.components, 1u);
+  EXPECT_NEAR(m.volume, 4 * pi / 3, 0.05 * 4 * pi / 3);
+}
+
+TEST(Crusts, RobustCoconeKeepsTheOuterBoundaryOfNoise) {
+  const Points noisy = clouds::jittered(clouds::sphere(6000), 0.06, 9); // two spacings to either side
+  const Result robust = by(Method::robust_cocone, noisy);
+  EXPECT_TRUE(robust.report.mesh.closed());
+  EXPECT_EQ(robust.report.mesh.genus, 0);
+  // Outside of the middle of the noise by more than half of its width.
+  EXPECT_GT(robust.report.mesh.volume, 4 * pi / 3 * std::pow(1.03, 3));
+  EXPECT_LT(robust.report.mesh.volume, 4 * pi / 3 * std::pow(1.06, 3));
+  // Without that filter little or nothing is left.
+  const auto volume_of_tight = [&] {
+    try {
+      return by(Method::tight_cocone, noisy).report.mesh.volume;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::no_surface);
+      return 0.0;
+    }
+  };
+  EXPECT_LT(volume_of_tight(), 1);
+  // Rows keep their numbers.
+  const Attribute* source = find_attribute(robust.mesh.vertex_attributes, "source_index");
+  ASSERT_NE(source, nullptr);
+  for (std::size_t v = 0; v < robust.mesh.vertices.size(); ++v)
+    EXPECT_EQ(robust.mesh.vertices[v], noisy[static_cast<std::size_t>(attribute_value(*source, v))]);
+}
+
+TEST(Crusts, SameForAnyNumberOfThreads) {
+  const Points points = clouds::jittered(clouds::sphere(1500), 0.03, 10);
+  for (const Method method : all)
+    EXPECT_EQ(by(method, points, 1).mesh.triangles, by(method, points, 3).mesh.triangles) << to_string(method);
+}
+
+TEST(Crusts, RefuseWhatOnlyEigencrustKnows) {
+  Options options;
+  options.method = Method::powercrust;
+  options.facade = Axis::plus_z;
+  EXPECT_NE(error_of([&] { check_options(options); }).find("leave out --method"), std::string::npos);
+}
+
+} // namespace
+} // namespace eigencrust

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "evidence/surroundings.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "clouds.h"
+
+namespace eigencrust {
+namespace {
+
+using clouds::Points;
+
+/// What surroundings look at.
+Scene scene_of(const Points& points, double noise = 0) {
+  const Threads threads(2);
+  clouds::Prepared p = clouds::prepare(points);
+  Scene scene;
+  scene.measures.model = sample_model(p.t.positions.raw(), noise, threads);
+  scene.tetrahedralization = std::move(p.t);
+  scene.sample_of_row = std::move(p.sample_of_row);
+  scene.stars = std::move(p.stars);
+  scene.poles = std::move(p.poles);
+  return scene;
+}
+
+PointCloud seen_from(Points points, const Vec3& place) {
+  PointCloud cloud = clouds::cloud_of(std::move(points));
+  cloud.sensors = {{place, false}};
+  cloud.sensor_of.assign(cloud.points.size(), 0);
+  return cloud;
+}
+
+HullSight sight_of(const PointCloud& cloud) {
+  const Scene scene = scene_of(cloud.points);
+  const Tetrahedralization& t = scene.tetrahedralization;
+  const auto lines = sight_lines(cloud, scene.sample_of_row, t, std::vector<float>(t.sample_count, 0), {});
+  return hull_sight(t, scene.stars, lines, Threads(2));
+}
+
+TEST(HullSight, IsThatOfTheSensors) {
+  const Points cube = clouds::cube_surface(8);
+  const double area = 6 * 8 * 8;
+  const HullSight within = sight_of(seen_from(cube, {3, 4.5, 4}));
+  EXPECT_NEAR(within.within, area, 1e-9 * area);
+  EXPECT_EQ(within.without, 0);
+  // Also what lies on the far side: its line leaves the hull on its way.
+  const HullSight without = sight_of(seen_from(cube, {3, 4.5, 40}));
+  EXPECT_EQ(without.within, 0);
+  EXPECT_NEAR(without.without, area, 1e-9 * area);
+}
+
+TEST(HullSight, SharesASampleOfSeveralSensors) {
+  PointCloud cloud = seen_from(clouds::cube_surface(8), {3.9, 4.2, 4.5});
+  const std::size_t n = cloud.points.size();
+  cloud.sensors.push_back({{3.7, 4.45, 50}, false}); // its lines run within no plane of the lattice
+  for (std::size_t i = 0; i < n; ++i) {
+    cloud.points.push_back(cloud.points[i]);
+    cloud.sensor_of.push_back(1);
+  }
+  const HullSight sight = sight_of(cloud);
+  EXPECT_NEAR(sight.within, sight.without, 1e-9 * sight.within);
+}
+
+Points heights(unsigned n, const std::function<double(double, double)>& height) {
+  Points points;
+  clouds::Random random(3);
+  for (unsigned i = 0; i < n; ++i)
+    for (unsigned j = 0; j < n; ++j) {
+      const double x = i + 0.4 * random.uniform(), y = j + 0.4 * random.uniform();
+      points.push_back({x, y, height(x, y)});
+    }
+  return points;
+}
+
+TEST(AxisReading, TellsGroundFromBodies) {
+  constexpr int z = 2;
+  const Threads threads(2);
+  const auto stacked = [&](const Points& points, int axis) {
+    return read_axis(scene_of(points), axis, threads).stacked;
+  };
+  const Points hills = heights(30, [](double x, double y) { return 3 * std::sin(x / 5) * std::cos(y / 4); });
+  EXPECT_LT(stacked(hills, z), 0.05);
+  EXPECT_GT(stacked(hills, 0), 0.9);
+  EXPECT_GT(stacked(clouds::sphere(3000), z), 0.9);
+  EXPECT_GT(stacked(clouds::torus(3, 1, 80, 30), z), 0.9);
+  // A plate one spacing thick.
+  Points plate = heights(30, [](double, double) { return 0.0; });
+  for (const Vec3& p : heights(30, [](double, double) { return 1.0; })) plate.push_back(p + Vec3{0.3, 0.2, 0});
+  EXPECT_GT(stacked(plate, z), 0.75); // as far from ground as other bodies
+}
+
+TEST(AxisReading, TellsTheCapOfABodyFromGround) {
+  const auto cap = [](const std::function<double(double, double)>& height) {
+    return read_axis(scene_of(heights(30, height)), 2, Threads(2)).cap;
+  };
+  const auto from_middle = [](double x, double y) { return std::hypot(x - 15, y - 15); };
+  EXPECT_GT(cap([&](double x, double y) { return -0.02 * std::pow(from_middle(x, y), 2); }), 3);
+  EXPECT_LT(cap([&](double x, double y) { return std::max(0.0, 5 - from_middle(x, y)); }), 0.5);
+  EXPECT_EQ(cap([&](double x, double y) { return 0.6 * x - 0.3 * y; }),
+            std::numeric_limits<double>::infinity()); // a plane but for rounding
+}
+
+TEST(Surroundings, FollowTheUserFirst) {
+  const Points hills = heights(30, [](double x, double y) { return 3 * std::sin(x / 5) * std::cos(y / 4); });
+  const Scene scene = scene_of(hills);
+  const PointCloud cloud = clouds::cloud_of(hills);
+  const auto kind = [&](const Options& options) { return surroundings_of(cloud, scene, options, Threads(1)).kind; };
+  Options options;
+  EXPECT_EQ(kind(options), SceneKind::facade);
+  options.detect_facade = false;
+  EXPECT_EQ(kind(options), SceneKind::body);
+  options.facade = Axis::minus_x;
+  EXPECT_EQ(surroundings_of(cloud, scene, options, Threads(1)).front, Axis::minus_x);
+  EXPECT_EQ(kind(Options::of(Preset::paper)), SceneKind::body);
+}
+
+} // namespace
+} // namespace eigencrust
