@@ -304,7 +304,8 @@ std::string describe(const Report& report) {
     text += ", " + (report.options.trim ? "all" : rounded(100 * (1 - report.unsupported_area)) + " %") +
             " of it covered by samples";
   if (report.base) text += "; " + rounded(report.base->volume_above_rim) + " above the plane of the rim";
-  text += "\n" + describe_moved(report);
+  text += "\n";
+  text += describe_moved(report);
   if (report.surroundings.kind == SceneKind::facade)
     text += "  one side: seen from " + to_string(report.surroundings.front) + ", solid behind" +
             (report.options.facade

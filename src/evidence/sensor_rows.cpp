@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "evidence/sensor_rows.h"
 
-#include <bit>
 #include <cstdint>
 #include <unordered_map>
 
+#include "geometry/place_hash.h"
+
 namespace eigencrust {
-namespace {
-
-struct PlaceHash {
-  std::size_t operator()(const Vec3& p) const {
-    std::uint64_t hash = 0;
-    for (const double c : {p.x, p.y, p.z}) // multiply by the golden ratio, fold the upper bits in
-      hash = (hash ^ std::bit_cast<std::uint64_t>(c == 0 ? 0.0 : c)) * 0x9e3779b97f4a7c15u, hash ^= hash >> 29;
-    return hash;
-  }
-};
-
-} // namespace
-
 void set_sensor_rows(PointCloud& cloud, std::span<const Vec3> places) {
   std::unordered_map<Vec3, std::uint32_t, PlaceHash> numbers;
   cloud.sensors.clear();

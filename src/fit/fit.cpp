@@ -20,10 +20,11 @@ constexpr double least_share_of_piece = 0.1;
 constexpr int edges_around = 10;
 
 // Steps of smoothing before the first fit, and of the areas around that its normals are summed over.
-constexpr std::uint32_t smoothing_steps = 5;
+constexpr int smoothing_steps = 5;
 constexpr int normal_steps = 10;
-// The second starts from the places and normals of the first; a third takes off nothing any more.
-constexpr std::array<double, 2> clusters_in_fit{25, 100};
+// The second fits start from the places and normals of the first, which may be coarse; a third takes off nothing any
+// more.
+constexpr std::array<FitEffort, 2> efforts{{{25, 3}, {50, 6}}};
 // In widths: fits of places farther away have no say in where a vertex goes.
 constexpr double blend_reach = 1;
 // In units of widths, squared: what is less than that about a fit is no misfit.
@@ -47,13 +48,30 @@ std::vector<std::uint32_t> pieces_of(const Surface& surface) {
   return piece;
 }
 
+/// Laplacian steps, in which vertices may come to lie on one another: nothing but a start. Rims stay.
+std::vector<Vec3> smoothed(std::vector<Vec3> vertices, const SurfaceFans& fans, const Threads& threads) {
+  std::vector<Vec3> next(vertices.size());
+  std::vector<std::uint8_t> at_rim(vertices.size());
+  for_each_index(threads, vertices.size(), [&](std::size_t v) { at_rim[v] = fans.at_rim(v); });
+  for (int step = 0; step < smoothing_steps; ++step) {
+    for_each_index(threads, vertices.size(), [&](std::size_t v) {
+      next[v] = vertices[v];
+      if (at_rim[v]) return;
+      Vec3 sum;
+      for (const auto& wing : fans[v]) sum = sum + (vertices[wing.next] - vertices[v]);
+      next[v] = vertices[v] + (1 / static_cast<double>(fans[v].size())) * sum;
+    });
+    vertices.swap(next);
+  }
+  return vertices;
+}
+
 /// From the areas of the triangles around, which are summed over some edges: those of folds cancel.
-std::vector<Vec3> averaged_normals(const TriangleMesh& mesh, const SurfaceFans& fans, const Threads& threads) {
-  std::vector<Vec3> area(mesh.vertices.size()), next(area.size());
+std::vector<Vec3> averaged_normals(std::span<const Vec3> vertices, const SurfaceFans& fans, const Threads& threads) {
+  std::vector<Vec3> area(vertices.size()), next(area.size());
   for_each_index(threads, area.size(), [&](std::size_t v) {
-    const Vec3& at = mesh.vertices[v];
     for (const auto& wing : fans[v])
-      area[v] = area[v] + cross(mesh.vertices[wing.next] - at, mesh.vertices[wing.last] - at);
+      area[v] = area[v] + cross(vertices[wing.next] - vertices[v], vertices[wing.last] - vertices[v]);
   });
   for (int step = 0; step < normal_steps; ++step) {
     for_each_index(threads, area.size(), [&](std::size_t v) {
@@ -73,7 +91,8 @@ Vec3 limited(const Vec3& from, const Vec3& to, double farthest) {
   return length > farthest ? from + (farthest / length) * (to - from) : to;
 }
 
-std::vector<float> noise_at_vertices(const Surface& surface, const SampleModel& model, const Threads& threads) {
+std::vector<float> noise_at_vertices(const Surface& surface, const SurfaceFans& fans, const SampleModel& model,
+                                     const Threads& threads) {
   const std::size_t n = surface.mesh.vertices.size();
   std::vector<float> noise(n, 0);
   for_each_index(threads, n, [&](std::size_t v) {
@@ -89,7 +108,6 @@ std::vector<float> noise_at_vertices(const Surface& surface, const SampleModel& 
   for (std::size_t v = 0; v < n; ++v)
     if (static_cast<double>(with_noise[piece[v]]) < least_share_of_piece * static_cast<double>(all[piece[v]]))
       noise[v] = 0;
-  const SurfaceFans fans(surface.mesh);
   std::vector<float> next(n);
   for (int edge = 0; edge < edges_around; ++edge) {
     for_each_index(threads, n, [&](std::size_t v) {
@@ -105,24 +123,27 @@ std::vector<float> noise_at_vertices(const Surface& surface, const SampleModel& 
 /// The middle of the noise, from fits at places spread over the surface.
 class SurfaceFit {
  public:
-  SurfaceFit(const Surface& surface, std::span<const Vec3> samples, const SampleModel& model,
+  SurfaceFit(const Surface& surface, const SurfaceFans& fans, std::span<const Vec3> samples, const SampleModel& model,
              std::span<const float> noise, const Threads& threads)
-      : surface_(surface), samples_(samples), model_(model), noise_(noise), threads_(threads), fans_(surface.mesh) {
-    TriangleMesh smoothed{surface.mesh.vertices, surface.mesh.triangles, {}, {}};
-    smooth(smoothed, Smoothing::laplacian, smoothing_steps, threads);
-    normal_ = averaged_normals(smoothed, fans_, threads);
-    position_ = std::move(smoothed.vertices);
+      : surface_(surface),
+        samples_(samples),
+        model_(model),
+        noise_(noise),
+        threads_(threads),
+        fans_(fans),
+        position_(smoothed(surface.mesh.vertices, fans, threads)),
+        normal_(averaged_normals(position_, fans, threads)) {
     for (std::size_t v = 0; v < position_.size(); ++v)
       if (noise_[v] < 0) position_[v] = surface.mesh.vertices[v]; // it stays, but says which side its sample is on
   }
 
   std::vector<Vec3> run() {
-    ClusterPyramid clusters(fans_, normal_, samples_, vertices_of_samples(), threads_);
-    for (std::size_t fit = 0; fit < clusters_in_fit.size(); ++fit) {
+    ClusterPyramid clusters(fans_, position_, normal_, samples_, vertices_of_samples(), threads_);
+    for (const FitEffort& effort : efforts) {
       const FitPlaces places = make_places(clusters);
-      if (fit == 0) width_ = chosen_widths(places, clusters, threads_);
-      move(clusters, fits_of_widths(places, clusters, width_, clusters_in_fit.at(fit), threads_));
-      if (fit + 1 < clusters_in_fit.size()) clusters.set_normals(normal_);
+      if (width_.empty()) width_ = chosen_widths(places, clusters, threads_);
+      move(clusters, fits_of_widths(places, clusters, width_, effort, threads_));
+      clusters.set_normals(normal_);
     }
     std::vector<Vec3> result = surface_.mesh.vertices;
     for (std::size_t v = 0; v < result.size(); ++v)
@@ -185,9 +206,9 @@ class SurfaceFit {
   }
 
   /// Each vertex onto the mean of the fits around it.
-  void move(const ClusterPyramid& clusters, const std::vector<LocalQuadric>& fits) {
+  void move(const ClusterPyramid& clusters, const PlaceFits& fits) {
     const std::vector<std::uint32_t>& place_of = clusters[0].parent;
-    const CompressedRows<std::uint32_t>& neighbours = clusters[FitPlaces::level].neighbours;
+    const ClusterLevel &places = clusters[FitPlaces::level], &wider = clusters[FitPlaces::level + 1];
     for_each_index(
         threads_, position_.size(),
         [&](std::size_t v) {
@@ -198,7 +219,7 @@ class SurfaceFit {
           const double unit = std::max(noise_at(v), least_unit_in_spacings * spacing_at(v));
           const double radius = blend_reach * width_[own] * unit;
           const auto take = [&](std::uint32_t p) {
-            const LocalQuadric& fit = fits[p];
+            const LocalQuadric& fit = fits.fit[p];
             if (!(fit.variance > 0) || !(dot(fit.normal, normal_[v]) > same_side)) return;
             const double nearness = 1 - squared_norm(fit.origin - position_[v]) / (radius * radius);
             if (!(nearness > 0)) return;
@@ -209,8 +230,13 @@ class SurfaceFit {
             normal = normal + w * fit.normal_at(position_[v]);
             total += w;
           };
-          take(own);
-          for (const std::uint32_t p : neighbours[own]) take(p);
+          if (const std::uint32_t above = places.parent[own]; fits.wide[above]) {
+            take(wider.seed[above]);
+            for (const std::uint32_t c : wider.neighbours[above]) take(wider.seed[c]);
+          } else {
+            take(own);
+            for (const std::uint32_t p : places.neighbours[own]) take(p);
+          }
           if (!(total > 0)) return;
           position_[v] = position_[v] + (offset / total) * normal_[v];
           if (const double length = norm(normal); length > 0) normal_[v] = (1 / length) * normal;
@@ -223,17 +249,17 @@ class SurfaceFit {
   const SampleModel& model_;
   std::span<const float> noise_;
   const Threads& threads_;
-  SurfaceFans fans_;
+  const SurfaceFans& fans_;
   std::vector<Vec3> position_, normal_; ///< of each vertex
   std::vector<double> width_;           ///< of each place, in its units
 };
 
 } // namespace
 
-std::vector<float> noise_to_fit(const Surface& surface, const SampleModel& model, SurfaceKind kind,
-                                const Threads& threads) {
+std::vector<float> noise_to_fit(const Surface& surface, const SurfaceFans& fans, const SampleModel& model,
+                                SurfaceKind kind, const Threads& threads) {
   if (kind == SurfaceKind::samples) return {};
-  std::vector<float> noise = noise_at_vertices(surface, model, threads);
+  std::vector<float> noise = noise_at_vertices(surface, fans, model, threads);
   if (kind == SurfaceKind::fitted) return noise;
   if (std::none_of(noise.begin(), noise.end(), [](float sigma) { return sigma > 0; })) return {};
   for (float& sigma : noise)
@@ -241,9 +267,9 @@ std::vector<float> noise_to_fit(const Surface& surface, const SampleModel& model
   return noise;
 }
 
-std::vector<Vec3> fitted_vertices(const Surface& surface, std::span<const Vec3> samples, const SampleModel& model,
-                                  std::span<const float> noise, const Threads& threads) {
-  return SurfaceFit(surface, samples, model, noise, threads).run();
+std::vector<Vec3> fitted_vertices(const Surface& surface, const SurfaceFans& fans, std::span<const Vec3> samples,
+                                  const SampleModel& model, std::span<const float> noise, const Threads& threads) {
+  return SurfaceFit(surface, fans, samples, model, noise, threads).run();
 }
 
 } // namespace eigencrust

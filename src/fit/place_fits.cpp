@@ -33,31 +33,42 @@ constexpr int averaging_rounds = 2;
 // Places are looked at in blocks, each with a memory of its own.
 constexpr std::size_t places_per_block = 512;
 
-/// Clusters around a place, found along the surface.
+/// Clusters around a place, found along the surface. The way leads over clusters of the next level, which are fewer.
 class Neighbourhood {
  public:
   Neighbourhood() : slot_(slots) {}
 
-  /// From `start` on, which is always one of them. \return valid until the next call
-  const std::vector<std::uint32_t>& find(const ClusterLevel& level, std::uint32_t start, const Vec3& origin,
-                                         const Vec3& normal, double radius) {
-    ++round_;
+  /// \param start one of the level above, which is always one of those whose children are looked at
+  /// \return of the level, those in the ball that look the same way; valid until the next call
+  const std::vector<std::uint32_t>& find(const ClusterPyramid& samples, std::size_t level, std::uint32_t start,
+                                         const Vec3& origin, const Vec3& normal, double radius) {
+    const ClusterLevel &fine = samples[level], &above = samples[level + 1];
+    walk(above, start, origin, normal, radius);
     found_.clear();
-    is_new(start);
-    found_.push_back(start);
-    seen_ = 1;
-    for (std::size_t i = 0; i < found_.size(); ++i)
-      for (const std::uint32_t c : level.neighbours[found_[i]]) {
-        if (seen_ >= most || !is_new(c)) continue;
-        ++seen_;
-        if (dot(level.normal[c], normal) > same_side && squared_norm(level.cluster[c].mean - origin) < radius * radius)
+    for (const std::uint32_t way : way_)
+      for (const std::uint32_t c : above.children[way])
+        if (squared_norm(fine.cluster[c].mean - origin) < radius * radius && dot(fine.normal[c], normal) > same_side)
           found_.push_back(c);
-      }
     return found_;
   }
 
  private:
-  static constexpr std::size_t slots = 4096, most = 1500; // a bound on the work
+  static constexpr std::size_t slots = 4096, most = 400; // a bound on the work
+
+  void walk(const ClusterLevel& level, std::uint32_t start, const Vec3& origin, const Vec3& normal, double radius) {
+    ++round_;
+    way_.assign(1, start);
+    is_new(start);
+    std::size_t seen = 1;
+    for (std::size_t i = 0; i < way_.size(); ++i)
+      for (const std::uint32_t c : level.neighbours[way_[i]]) {
+        if (seen >= most || !is_new(c)) continue;
+        ++seen;
+        const double reach = radius + level.extent[c];
+        if (dot(level.normal[c], normal) > same_side && squared_norm(level.cluster[c].mean - origin) < reach * reach)
+          way_.push_back(c);
+      }
+  }
 
   bool is_new(std::uint32_t c) {
     constexpr std::uint32_t golden = 2654435769U; // Knuth 1973, 6.4
@@ -74,9 +85,8 @@ class Neighbourhood {
     std::uint32_t round = 0, item = 0;
   };
   std::vector<Slot> slot_;
-  std::vector<std::uint32_t> found_;
+  std::vector<std::uint32_t> way_, found_;
   std::uint32_t round_ = 0;
-  std::size_t seen_ = 0;
 };
 
 class PlaceFitter {
@@ -84,16 +94,24 @@ class PlaceFitter {
   PlaceFitter(const FitPlaces& places, const ClusterPyramid& samples, double enough)
       : places_(places), samples_(samples), enough_(enough) {}
 
-  std::optional<LocalQuadric> fit(std::size_t p, double width) {
+  std::optional<LocalQuadric> fit(std::size_t p, double width) { return fits(p, std::span(&width, 1))[0]; }
+
+  /// Those of the increasing widths that look at clusters of one level, the first at least: one search does for all.
+  const std::vector<std::optional<LocalQuadric>>& fits(std::size_t p, std::span<const double> width) {
     const Vec3 &origin = places_.position[p], &normal = places_.normal[p];
-    const double radius = width * places_.unit[p];
-    const std::size_t l = level_for(radius / places_.spacing[p]);
+    const auto radius = [&](std::size_t k) { return width[k] * places_.unit[p]; };
+    const std::size_t l = level_for(radius(0) / places_.spacing[p]);
+    fits_.clear();
+    fits_.emplace_back(origin, normal, radius(0));
+    for (std::size_t k = 1; k < width.size() && level_for(radius(k) / places_.spacing[p]) == l; ++k)
+      fits_.emplace_back(origin, normal, radius(k));
     // Where the width ends samples are still as thick as in the middle.
-    const double reach = std::hypot(radius, static_cast<double>(noise_bound) * places_.noise[p]);
-    const auto& clusters = around_.find(samples_[l], cluster_of(p, l), origin, normal, reach);
-    QuadricFit fit(origin, normal, radius);
-    for (const std::uint32_t c : clusters) fit.add(samples_[l].cluster[c]);
-    return fit.solve(most_noise(p));
+    const double reach = std::hypot(radius(fits_.size() - 1), static_cast<double>(noise_bound) * places_.noise[p]);
+    for (const std::uint32_t c : around_.find(samples_, l, cluster_of(p, l + 1), origin, normal, reach))
+      for (QuadricFit& fit : fits_) fit.add(samples_[l].cluster[c]);
+    solved_.clear();
+    for (const QuadricFit& fit : fits_) solved_.push_back(fit.solve(most_noise(p)));
+    return solved_;
   }
 
   /// The narrowest fit knows the noise best, but where the shape is as fine it takes that for noise, too.
@@ -105,11 +123,11 @@ class PlaceFitter {
   [[nodiscard]] std::size_t level_for(double radius_in_spacings) const {
     double clusters = std::numbers::pi * radius_in_spacings * radius_in_spacings / 4;
     std::size_t l = 0;
-    for (; clusters > enough_ && l + 1 < samples_.levels(); clusters /= 4) ++l;
+    for (; clusters > enough_ && l + 2 < samples_.levels(); clusters /= 4) ++l;
     return l;
   }
+  /// \param level that of the places or a coarser one
   [[nodiscard]] std::uint32_t cluster_of(std::size_t p, std::size_t level) const {
-    if (level < FitPlaces::level) return samples_[FitPlaces::level].seed[p];
     auto c = static_cast<std::uint32_t>(p);
     for (std::size_t l = FitPlaces::level; l < level; ++l) c = samples_[l].parent[c];
     return c;
@@ -119,6 +137,8 @@ class PlaceFitter {
   const ClusterPyramid& samples_;
   double enough_;
   Neighbourhood around_;
+  std::vector<QuadricFit> fits_;
+  std::vector<std::optional<LocalQuadric>> solved_;
 };
 
 /// The width of least risk, which is the square of the bias and the variance together. Fits twice as wide have a bias
@@ -134,7 +154,10 @@ class WidthChoice {
         running_(places.wanted),
         noise_(places.position.size(), 0),
         bias_(noise_.size(), 0),
-        choice_(noise_.size(), -1) {
+        choice_(noise_.size(), -1),
+        fitted_(noise_.size(), 0) {
+    const std::vector<float> zeros(noise_.size(), 0);
+    levels_.fill({zeros, zeros, std::vector<float>(noise_.size(), none)});
     for (std::size_t p = 0; p < running_.size(); ++p)
       running_[p] &= squared_norm(places.normal[p]) > 0 &&
                      (p % in_little_noise == 0 || places.noise[p] > little_noise * places.spacing[p]);
@@ -142,7 +165,7 @@ class WidthChoice {
 
   std::vector<double> run() {
     for (std::size_t k = 0; k < widths.size(); ++k) {
-      levels_.push_back(fit(k));
+      fit(k);
       if (k == 0) find_noise();
       weigh(k);
     }
@@ -159,21 +182,21 @@ class WidthChoice {
     std::vector<float> risk;
   };
 
-  Level fit(std::size_t k) {
-    const std::size_t n = running_.size();
-    Level level{std::vector<float>(n, 0), std::vector<float>(n, 0), std::vector<float>(n, none)};
-    for_blocks(threads_, n, places_per_block, [&](std::size_t begin, std::size_t end, std::size_t) {
+  /// Fits of this width, and of the next ones where they cost little more.
+  void fit(std::size_t k) {
+    for_blocks(threads_, running_.size(), places_per_block, [&](std::size_t begin, std::size_t end, std::size_t) {
       PlaceFitter fitter(places_, samples_, enough_to_choose);
       for (std::size_t p = begin; p < end; ++p) {
-        if (!running_[p]) continue;
-        const auto found = fitter.fit(p, widths[k]);
-        if (!found) continue;
-        level.offset[p] = static_cast<float>(found->offset(places_.position[p], places_.normal[p]));
-        level.variance[p] = static_cast<float>(found->variance);
-        if (noise_[p] == 0) noise_[p] = found->noise_variance;
+        if (!running_[p] || fitted_[p] > k) continue;
+        for (const auto& found : fitter.fits(p, std::span(widths).subspan(k))) {
+          Level& level = levels_[fitted_[p]++];
+          if (!found) continue;
+          level.offset[p] = static_cast<float>(found->offset(places_.position[p], places_.normal[p]));
+          level.variance[p] = static_cast<float>(found->variance);
+          if (noise_[p] == 0) noise_[p] = found->noise_variance;
+        }
       }
     });
-    return level;
   }
 
   /// The narrowest fits know the noise best, but where the shape is as fine they take that for noise, too.
@@ -209,7 +232,7 @@ class WidthChoice {
       }
       levels_[k].risk[p] = static_cast<float>(bias_counts * bias_[p] + noise_[p] * static_cast<double>(variance[p]));
       double best = std::numeric_limits<double>::infinity();
-      for (const Level& level : levels_)
+      for (const Level& level : levels_) // those to come have none yet
         if (level.risk[p] >= 0) best = std::min(best, static_cast<double>(level.risk[p]));
       running_[p] = static_cast<double>(levels_[k].risk[p]) < hopeless * best;
     }
@@ -259,7 +282,8 @@ class WidthChoice {
   std::vector<double> noise_;         ///< variance
   std::vector<double> bias_;          ///< square, of the level before or of narrower ones
   std::vector<double> choice_;
-  std::vector<Level> levels_;
+  std::vector<std::uint8_t> fitted_; ///< the number of widths that were
+  std::array<Level, widths.size()> levels_;
 };
 
 } // namespace
@@ -268,16 +292,33 @@ std::vector<double> chosen_widths(const FitPlaces& places, const ClusterPyramid&
   return WidthChoice(places, samples, threads).run();
 }
 
-std::vector<LocalQuadric> fits_of_widths(const FitPlaces& places, const ClusterPyramid& samples,
-                                         const std::vector<double>& width, double clusters, const Threads& threads) {
-  std::vector<LocalQuadric> fits(places.position.size());
-  for_blocks(threads, fits.size(), places_per_block, [&](std::size_t begin, std::size_t end, std::size_t) {
-    PlaceFitter fitter(places, samples, clusters);
+namespace {
+
+/// Where all fits are wide.
+std::vector<std::uint8_t> wide_clusters(const FitPlaces& places, const ClusterPyramid& samples,
+                                        const std::vector<double>& width, double wide_in_spacings) {
+  const std::vector<std::uint32_t>& parent = samples[FitPlaces::level].parent;
+  std::vector<std::uint8_t> wide(samples[FitPlaces::level + 1].cluster.size(), 1);
+  for (std::size_t p = 0; p < width.size(); ++p)
+    if (width[p] * places.unit[p] < wide_in_spacings * places.spacing[p]) wide[parent[p]] = 0;
+  return wide;
+}
+
+} // namespace
+
+PlaceFits fits_of_widths(const FitPlaces& places, const ClusterPyramid& samples, const std::vector<double>& width,
+                         const FitEffort& effort, const Threads& threads) {
+  PlaceFits fits{std::vector<LocalQuadric>(places.position.size()), wide_clusters(places, samples, width, effort.wide)};
+  const std::vector<std::uint32_t>&parent = samples[FitPlaces::level].parent,
+        &seed = samples[FitPlaces::level + 1].seed;
+  for_blocks(threads, fits.fit.size(), places_per_block, [&](std::size_t begin, std::size_t end, std::size_t) {
+    PlaceFitter fitter(places, samples, effort.clusters);
     for (std::size_t p = begin; p < end; ++p) {
       if (!(width[p] > 0) || !(squared_norm(places.normal[p]) > 0)) continue;
+      if (fits.wide[parent[p]] && seed[parent[p]] != p) continue;
       std::optional<LocalQuadric> fit;
       for (double w = width[p]; !fit && w < 2 * widths.back(); w *= 2) fit = fitter.fit(p, w);
-      if (fit) fits[p] = *fit;
+      if (fit) fits.fit[p] = *fit;
     }
   });
   return fits;

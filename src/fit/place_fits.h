@@ -27,9 +27,20 @@ struct FitPlaces {
 /// The choice is then averaged over the places around, for a single one hangs on the noise. 0: no fit is possible.
 std::vector<double> chosen_widths(const FitPlaces& places, const ClusterPyramid& samples, const Threads& threads);
 
+struct PlaceFits {
+  std::vector<LocalQuadric> fit; ///< of each place; variance = 0: there is none
+  std::vector<std::uint8_t>
+      wide; ///< of each cluster of the next level: 1 where only the place it was made from has one
+};
+
+struct FitEffort {
+  double clusters; ///< clusters are as coarse as leaves so many of them in a fit
+  double wide;     ///< in spacings: where all fits are wider one place in four has one, for all
+};
+
 /// Fits of these widths. Samples of other sides do not count: clusters whose normal is more than 60° off, and those
-/// that are not reached along the surface. variance = 0: there is none.
-std::vector<LocalQuadric> fits_of_widths(const FitPlaces& places, const ClusterPyramid& samples,
-                                         const std::vector<double>& width, double clusters, const Threads& threads);
+/// that are not reached along the surface.
+PlaceFits fits_of_widths(const FitPlaces& places, const ClusterPyramid& samples, const std::vector<double>& width,
+                         const FitEffort& effort, const Threads& threads);
 
 } // namespace eigencrust

@@ -9,7 +9,7 @@ namespace {
 // Cosine: clusters that are joined.
 constexpr double same_way = 0.8;
 // Fewer clusters need no coarser ones.
-constexpr std::size_t few = 64, least_levels = 2;
+constexpr std::size_t few = 64, least_levels = 3;
 
 std::vector<Vec3> summed_normals(const ClusterLevel& fine, std::size_t count) {
   std::vector<Vec3> normal(count);
@@ -40,10 +40,12 @@ double SampleCluster::covariance(const Vec3& a, const Vec3& b) const {
          a.z * (s[2] * b.x + s[4] * b.y + s[5] * b.z);
 }
 
-ClusterPyramid::ClusterPyramid(const SurfaceFans& fans, std::vector<Vec3> normal, std::span<const Vec3> samples,
-                               std::span<const std::uint32_t> vertex_of, const Threads& threads) {
+ClusterPyramid::ClusterPyramid(const SurfaceFans& fans, std::span<const Vec3> position, std::vector<Vec3> normal,
+                               std::span<const Vec3> samples, std::span<const std::uint32_t> vertex_of,
+                               const Threads& threads) {
   ClusterLevel base;
   base.cluster.resize(normal.size());
+  for (std::size_t v = 0; v < normal.size(); ++v) base.cluster[v].mean = position[v];
   for (std::size_t s = 0; s < samples.size(); ++s)
     if (vertex_of[s] != no_vertex) base.cluster[vertex_of[s]].add({samples[s], {}, 1});
   base.normal = std::move(normal);
@@ -57,7 +59,7 @@ ClusterPyramid::ClusterPyramid(const SurfaceFans& fans, std::vector<Vec3> normal
     levels_.push_back(coarser(levels_.back(), threads));
 }
 
-ClusterLevel ClusterPyramid::coarser(ClusterLevel& fine, const Threads& threads) const {
+ClusterLevel ClusterPyramid::coarser(ClusterLevel& fine, const Threads& threads) {
   constexpr std::uint32_t free = no_vertex;
   ClusterLevel coarse;
   const auto n = static_cast<std::uint32_t>(fine.cluster.size());
@@ -70,20 +72,25 @@ ClusterLevel ClusterPyramid::coarser(ClusterLevel& fine, const Threads& threads)
     for (const std::uint32_t o : fine.neighbours[c])
       if (fine.parent[o] == free && dot(fine.normal[o], fine.normal[c]) > same_way) fine.parent[o] = p;
   }
+  coarse.children = build_rows<std::uint32_t>(coarse.seed.size(), [&](auto&& visit) {
+    for (std::uint32_t c = 0; c < n; ++c) visit(fine.parent[c], c);
+  });
   coarse.cluster.resize(coarse.seed.size());
-  for (std::uint32_t c = 0; c < n; ++c) coarse.cluster[fine.parent[c]].add(fine.cluster[c]);
+  coarse.extent.resize(coarse.seed.size());
+  for_each_index(threads, coarse.seed.size(), [&](std::size_t p) {
+    SampleCluster& cluster = coarse.cluster[p];
+    cluster.mean = fine.cluster[coarse.seed[p]].mean;
+    for (const std::uint32_t c : coarse.children[p]) cluster.add(fine.cluster[c]);
+    for (const std::uint32_t c : coarse.children[p])
+      coarse.extent[p] = std::max(coarse.extent[p], distance(fine.cluster[c].mean, cluster.mean));
+  });
   coarse.normal = summed_normals(fine, coarse.seed.size());
   const auto neighbours = [&] {
     return [&](std::size_t p, std::vector<std::uint32_t>& row) {
       const auto begin = static_cast<std::ptrdiff_t>(row.size());
-      const auto look = [&](std::uint32_t c) {
+      for (const std::uint32_t c : coarse.children[p])
         for (const std::uint32_t o : fine.neighbours[c])
           if (const std::uint32_t q = fine.parent[o]; q != p) row.push_back(q);
-      };
-      const std::uint32_t seed = coarse.seed[p];
-      look(seed);
-      for (const std::uint32_t c : fine.neighbours[seed])
-        if (fine.parent[c] == p) look(c);
       std::sort(row.begin() + begin, row.end());
       row.erase(std::unique(row.begin() + begin, row.end()), row.end());
     };

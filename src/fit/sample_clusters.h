@@ -20,7 +20,7 @@ namespace eigencrust {
 struct SampleCluster {
   Vec3 mean;
   std::array<double, 6> spread{}; ///< covariance: xx, xy, xz, yy, yz, zz; length²
-  double count = 0;               ///< of samples; 0: the cluster only leads on to others
+  double count = 0;               ///< of samples; 0: the cluster only leads on to others, from its mean
 
   void add(const SampleCluster& other);
   /// aᵀ C b
@@ -32,16 +32,19 @@ struct ClusterLevel {
   std::vector<Vec3> normal;                 ///< unit; 0: unknown
   CompressedRows<std::uint32_t> neighbours; ///< along the surface
   std::vector<std::uint32_t> parent;        ///< in the next level; empty in the last
-  std::vector<std::uint32_t> seed;          ///< of the level below, from which the cluster was made; empty in the first
+  // Of the level below; empty in the first.
+  std::vector<std::uint32_t> seed;        ///< from which the cluster was made
+  CompressedRows<std::uint32_t> children; ///< which it joins
+  std::vector<double> extent;             ///< distance from its mean to those of its children, the largest
 };
 
 /// Level 0 has a cluster for each vertex of the surface. Each next one joins every cluster of an independent set (which
 /// is maximal) with its neighbours that look the same way: about a quarter as many, twice as far apart.
 class ClusterPyramid {
  public:
-  /// \param normal of each vertex \param vertex_of each sample; no_vertex: it belongs to none
-  ClusterPyramid(const SurfaceFans& fans, std::vector<Vec3> normal, std::span<const Vec3> samples,
-                 std::span<const std::uint32_t> vertex_of, const Threads& threads);
+  /// \param position, normal of each vertex \param vertex_of each sample; no_vertex: it belongs to none
+  ClusterPyramid(const SurfaceFans& fans, std::span<const Vec3> position, std::vector<Vec3> normal,
+                 std::span<const Vec3> samples, std::span<const std::uint32_t> vertex_of, const Threads& threads);
 
   static constexpr std::uint32_t no_vertex = 0xffffffff;
   static constexpr std::size_t most_levels = 6;
@@ -51,7 +54,7 @@ class ClusterPyramid {
   void set_normals(std::vector<Vec3> normal);
 
  private:
-  [[nodiscard]] ClusterLevel coarser(ClusterLevel& fine, const Threads& threads) const;
+  static ClusterLevel coarser(ClusterLevel& fine, const Threads& threads);
   std::vector<ClusterLevel> levels_;
 };
 

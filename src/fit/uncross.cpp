@@ -5,9 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "geometry/mesh_topology.h"
 #include "geometry/self_intersections.h"
-#include "surface/fans.h"
 
 namespace eigencrust {
 namespace {
@@ -21,26 +19,22 @@ constexpr double shares = 1000;
 
 class Uncrossing {
  public:
-  Uncrossing(std::span<const Vec3> before, double spacing, TriangleMesh& mesh, const Threads& threads)
+  Uncrossing(std::span<const Vec3> before, double spacing, const SurfaceFans& fans, TriangleMesh& mesh,
+             const Threads& threads)
       : before_(before),
         fitted_(mesh.vertices),
         spacing_(spacing),
+        fans_(fans),
         mesh_(mesh),
-        fans_(mesh),
         threads_(threads),
         steps_(mesh.vertices.size(), 0),
         movable_(mesh.vertices.size(), 0) {
-    for (std::size_t v = 0; v < movable_.size(); ++v) {
-      if (mesh_.vertices[v] == before_[v]) continue;
+    for_each_index(threads, movable_.size(), [&](std::size_t v) {
+      if (mesh_.vertices[v] == before_[v]) return;
       movable_[v] = 1;
       mesh_.vertices[v] = rounded(mesh_.vertices[v]);
-    }
-    // The middle of its neighbours is no place for a vertex at a rim.
-    const std::vector<Side> sides = sorted_sides(mesh.triangles, mesh.vertices.size(), threads);
-    rim_.assign(movable_.size(), 0);
-    for_each_edge(sides, [&](std::span<const Side> edge) {
-      if (edge.size() == 1) rim_[edge[0].low] = rim_[edge[0].high] = 1;
     });
+    degenerate_ = find_degenerate_triangles(mesh_.vertices, mesh_.triangles, threads_);
   }
 
   UncrossCounts run() {
@@ -51,6 +45,9 @@ class Uncrossing {
       if (first) counts.crossings = counts.left;
       if (bad.empty() || !ease(bad)) break;
       asked = touched();
+      for_each_index(threads_, asked.size(), [&](std::size_t t) {
+        if (asked[t]) degenerate_[t] = is_degenerate(mesh_.vertices, mesh_.triangles[t]);
+      });
     }
     counts.eased =
         static_cast<std::uint64_t>(std::count_if(steps_.begin(), steps_.end(), [](std::uint8_t s) { return s > 0; }));
@@ -60,16 +57,15 @@ class Uncrossing {
  private:
   /// Triangles that cross one another or have no area, increasing.
   std::vector<std::uint32_t> bad_triangles(std::span<const std::uint8_t> asked, std::uint64_t& crossings) const {
-    const auto degenerate = find_degenerate_triangles(mesh_.vertices, mesh_.triangles, threads_);
-    const auto pairs = find_self_intersections(mesh_.vertices, mesh_.triangles, degenerate, asked, threads_);
+    const auto pairs = find_self_intersections(mesh_.vertices, mesh_.triangles, degenerate_, asked, threads_);
     crossings = pairs.size();
     std::vector<std::uint32_t> bad;
     for (const auto& [f, g] : pairs) {
       bad.push_back(f);
       bad.push_back(g);
     }
-    for (std::uint32_t t = 0; t < degenerate.size(); ++t)
-      if (degenerate[t] != 0) bad.push_back(t);
+    for (std::uint32_t t = 0; t < degenerate_.size(); ++t)
+      if (degenerate_[t] != 0) bad.push_back(t);
     std::sort(bad.begin(), bad.end());
     bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
     return bad;
@@ -92,7 +88,8 @@ class Uncrossing {
 
   Vec3 next_place(std::uint32_t v) {
     const std::uint8_t step = ++steps_[v];
-    if (step <= easing_steps && !rim_[v]) {
+    // The middle of its neighbours is no place for a vertex at a rim.
+    if (step <= easing_steps && !fans_.at_rim(v)) {
       Vec3 sum;
       for (const auto& wing : fans_[v]) sum = sum + (mesh_.vertices[wing.next] - before_[v]);
       const Vec3 way = (1.0 / static_cast<double>(fans_[v].size())) * sum;
@@ -107,8 +104,9 @@ class Uncrossing {
   [[nodiscard]] std::vector<std::uint8_t> touched() const {
     std::vector<std::uint8_t> of_vertex(mesh_.vertices.size(), 0), touched(mesh_.triangles.size(), 0);
     for (const std::uint32_t v : moved_) of_vertex[v] = 1;
-    for (std::size_t t = 0; t < touched.size(); ++t)
+    for_each_index(threads_, touched.size(), [&](std::size_t t) {
       for (const std::uint32_t v : mesh_.triangles[t]) touched[t] |= of_vertex[v];
+    });
     return touched;
   }
 
@@ -121,17 +119,19 @@ class Uncrossing {
   std::span<const Vec3> before_;
   std::vector<Vec3> fitted_;
   double spacing_;
+  const SurfaceFans& fans_;
   TriangleMesh& mesh_;
-  SurfaceFans fans_;
   const Threads& threads_;
-  std::vector<std::uint8_t> steps_, movable_, rim_;
-  std::vector<std::uint32_t> moved_; ///< in the last step
+  std::vector<std::uint8_t> steps_, movable_; ///< of each vertex
+  std::vector<std::uint8_t> degenerate_;      ///< of each triangle
+  std::vector<std::uint32_t> moved_;          ///< in the last step
 };
 
 } // namespace
 
-UncrossCounts uncross(std::span<const Vec3> before, double spacing, TriangleMesh& mesh, const Threads& threads) {
-  return Uncrossing(before, spacing, mesh, threads).run();
+UncrossCounts uncross(std::span<const Vec3> before, double spacing, const SurfaceFans& fans, TriangleMesh& mesh,
+                      const Threads& threads) {
+  return Uncrossing(before, spacing, fans, mesh, threads).run();
 }
 
 } // namespace eigencrust

@@ -9,6 +9,7 @@
 #include <eigencrust/types.h>
 
 #include "parallel/threads.h"
+#include "surface/fans.h"
 
 namespace eigencrust {
 
@@ -24,6 +25,8 @@ struct UncrossCounts {
 /// moved stay \param spacing coordinates are rounded to float where that moves them by less than a thousandth of it, so
 /// that a
 ///        file of floats holds what was tested
-UncrossCounts uncross(std::span<const Vec3> before, double spacing, TriangleMesh& mesh, const Threads& threads);
+/// \param fans of `mesh`
+UncrossCounts uncross(std::span<const Vec3> before, double spacing, const SurfaceFans& fans, TriangleMesh& mesh,
+                      const Threads& threads);
 
 } // namespace eigencrust

@@ -2,7 +2,6 @@
 #include "geometry/box_tree.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace eigencrust {
@@ -35,8 +34,8 @@ std::pair<std::uint32_t, std::uint32_t> node_counts(std::uint32_t n) {
 /// Where nodes stand follows from the numbers of items alone, so parts can be built side by side.
 class BoxTree::Builder {
  public:
-  Builder(BoxTree& tree, std::span<const Box3> boxes) : tree_(tree), boxes_(boxes), centres_(boxes.size()) {
-    std::transform(boxes.begin(), boxes.end(), centres_.begin(), [](const Box3& b) { return b.centre(); });
+  Builder(BoxTree& tree, std::span<const Box3> boxes) : tree_(tree), boxes_(boxes), items_(boxes.size()) {
+    for (std::uint32_t i = 0; i < items_.size(); ++i) items_[i] = {boxes[i].centre(), i};
   }
 
   void run(const Threads& threads) {
@@ -63,6 +62,10 @@ class BoxTree::Builder {
   struct Part {
     std::uint32_t node, begin, end;
   };
+  struct Item {
+    Vec3 centre;
+    std::uint32_t number;
+  };
 
   void build(const Part& part) {
     if (part.end - part.begin > leaf_size) {
@@ -73,6 +76,7 @@ class BoxTree::Builder {
       return;
     }
     const auto first = tree_.order_.begin() + part.begin, last = tree_.order_.begin() + part.end;
+    for (std::uint32_t i = part.begin; i < part.end; ++i) tree_.order_[i] = items_[i].number;
     std::sort(first, last);
     Node& node = tree_.nodes_[part.node];
     node.first = part.begin;
@@ -81,17 +85,17 @@ class BoxTree::Builder {
   }
 
   std::pair<Part, Part> split(const Part& part) {
-    const auto first = tree_.order_.begin();
+    const auto first = items_.begin();
     Box3 spread;
-    for (std::uint32_t i = part.begin; i < part.end; ++i) add(spread, centres_[tree_.order_[i]]);
+    for (std::uint32_t i = part.begin; i < part.end; ++i) add(spread, items_[i].centre);
     const Vec3 size = spread.max - spread.min;
     double Vec3::*axis = &Vec3::x;
     if (size.y > size.*axis) axis = &Vec3::y;
     if (size.z > size.*axis) axis = &Vec3::z;
     // Ties go by number: the tree is the same whatever the library's selection algorithm does.
-    const auto before = [&](std::uint32_t a, std::uint32_t b) {
-      const double ka = centres_[a].*axis, kb = centres_[b].*axis;
-      return ka < kb || (ka == kb && a < b);
+    const auto before = [&](const Item& a, const Item& b) {
+      const double ka = a.centre.*axis, kb = b.centre.*axis;
+      return ka < kb || (ka == kb && a.number < b.number);
     };
     const std::uint32_t middle = part.begin + (part.end - part.begin) / 2;
     std::nth_element(first + part.begin, first + middle, first + part.end, before);
@@ -108,12 +112,34 @@ class BoxTree::Builder {
 
   BoxTree& tree_;
   std::span<const Box3> boxes_;
-  std::vector<Vec3> centres_;
+  std::vector<Item> items_; ///< moved as a whole: what is compared lies side by side
 };
+
+std::vector<BoxTree::NodePair> BoxTree::parts_of_join() const {
+  constexpr std::size_t enough = 512; // for many threads, and short beside the whole
+  std::vector<NodePair> parts;
+  if (!nodes_.empty()) parts.push_back({0, 0});
+  for (bool split = true; split && parts.size() < enough;) {
+    split = false;
+    std::vector<NodePair> next;
+    for (const NodePair& part : parts) {
+      const auto [a, b] = part;
+      if (nodes_[a].count > 0 && nodes_[b].count > 0) {
+        next.push_back(part);
+        continue;
+      }
+      split = true;
+      for_each_child_pair(part, [&](const NodePair& child) {
+        if (child[0] == child[1] || overlap(nodes_[child[0]].box, nodes_[child[1]].box)) next.push_back(child);
+      });
+    }
+    parts = std::move(next);
+  }
+  return parts;
+}
 
 BoxTree::BoxTree(std::span<const Box3> boxes, const Threads& threads) : order_(boxes.size()) {
   if (boxes.empty()) return;
-  std::iota(order_.begin(), order_.end(), 0u);
   nodes_.resize(node_counts(static_cast<std::uint32_t>(boxes.size())).first);
   Builder(*this, boxes).run(threads);
 }

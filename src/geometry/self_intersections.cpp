@@ -62,13 +62,16 @@ int shared_first(Triangle& f, Triangle& g) {
 
 } // namespace
 
+bool is_degenerate(std::span<const Vec3> vertices, const Triangle& triangle) {
+  const auto& [a, b, c] = triangle;
+  return CGAL::collinear(to_cgal(vertices[a]), to_cgal(vertices[b]), to_cgal(vertices[c]));
+}
+
 std::vector<std::uint8_t> find_degenerate_triangles(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                                                     const Threads& threads) {
   std::vector<std::uint8_t> degenerate(triangles.size());
-  for_each_index(threads, triangles.size(), [&](std::size_t t) {
-    const auto& [a, b, c] = triangles[t];
-    degenerate[t] = CGAL::collinear(to_cgal(vertices[a]), to_cgal(vertices[b]), to_cgal(vertices[c])) ? 1 : 0;
-  });
+  for_each_index(threads, triangles.size(),
+                 [&](std::size_t t) { degenerate[t] = is_degenerate(vertices, triangles[t]) ? 1 : 0; });
   return degenerate;
 }
 
@@ -82,33 +85,51 @@ class CrossingSearch {
       : vertices_(vertices), triangles_(triangles), degenerate_(degenerate), asked_(asked) {
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
       if (degenerate[t] == 0 && is_asked(t)) number_.push_back(t);
-    boxes_.reserve(number_.size());
-    for (const std::uint32_t t : number_) boxes_.push_back(box_of(t));
-    if (!boxes_.empty()) tree_ = BoxTree(boxes_, threads);
+    if (number_.empty()) return;
+    boxes_.resize(number_.size());
+    for_each_index(threads, boxes_.size(), [&](std::size_t i) { boxes_[i] = box_of(number_[i]); });
+    tree_ = BoxTree(boxes_, threads);
+    std::vector<std::uint32_t> number(number_.size());
+    for_each_index(threads, number.size(), [&](std::size_t i) {
+      number[i] = number_[tree_.order()[i]];
+      boxes_[i] = box_of(number[i]);
+    });
+    number_.swap(number);
+    if (asked.empty()) parts_ = tree_.parts_of_join();
   }
 
-  /// visit(block, f, g) for each pair once, on the thread of the block; blocks go through the triangles in order.
+  /// visit(block, f, g) for each pair once, on the thread of the block.
   template <class Visit>
   void run(const Threads& threads, Visit&& visit) const {
     if (boxes_.empty()) return;
-    // Where all are asked for in the order of the leaves, so that one query after the other walks through the same
-    // nodes; the tree is small where few are.
-    const bool all = number_.size() == triangles_.size();
+    if (asked_.empty()) {
+      threads.run(parts_.size(), [&](std::size_t p) {
+        tree_.join(parts_[p], [&](std::uint32_t i, std::uint32_t j) {
+          if (!BoxTree::overlap(boxes_[i], boxes_[j])) return;
+          const auto [f, g] = std::minmax(number_[i], number_[j]);
+          if (intersect(triangles_[f], triangles_[g])) visit(p, f, g);
+        });
+      });
+      return;
+    }
+    // The tree is small where few are asked for; all others walk through it.
     for_blocks(threads, triangles_.size(), block, [&](std::size_t begin, std::size_t end, std::size_t b) {
       for (std::size_t i = begin; i < end; ++i) {
-        const auto f = all ? number_[tree_.order()[i]] : static_cast<std::uint32_t>(i);
+        const auto f = static_cast<std::uint32_t>(i);
         if (degenerate_[f] != 0) continue;
         const Box3 box = box_of(f);
         const bool both = is_asked(f);
-        tree_.overlapping_leaves(box, [&](std::uint32_t item) {
-          const std::uint32_t g = number_[item];
-          if ((both && g <= f) || !BoxTree::overlap(boxes_[item], box)) return;
+        tree_.overlapping_leaves(box, [&](std::uint32_t place) {
+          const std::uint32_t g = number_[place];
+          if ((both && g <= f) || !BoxTree::overlap(boxes_[place], box)) return;
           if (intersect(triangles_[f], triangles_[g])) visit(b, f, g);
         });
       }
     });
   }
-  [[nodiscard]] std::size_t blocks() const { return (triangles_.size() + block - 1) / block; }
+  [[nodiscard]] std::size_t blocks() const {
+    return asked_.empty() ? parts_.size() : (triangles_.size() + block - 1) / block;
+  }
 
  private:
   static constexpr std::size_t block = 2048;
@@ -138,9 +159,10 @@ class CrossingSearch {
   std::span<const Vec3> vertices_;
   std::span<const Triangle> triangles_;
   std::span<const std::uint8_t> degenerate_, asked_;
-  std::vector<std::uint32_t> number_; ///< of those asked for
+  std::vector<std::uint32_t> number_; ///< of those asked for, in the order of the tree's leaves
   std::vector<Box3> boxes_;           ///< of those
   BoxTree tree_;
+  std::vector<BoxTree::NodePair> parts_; ///< where all are asked for
 };
 
 } // namespace

@@ -15,7 +15,9 @@
 
 namespace eigencrust {
 
-/// For each triangle 1 when two of its vertices coincide or all three are collinear (exact), else 0.
+/// Do two vertices of the triangle coincide, or are all three collinear (exact)?
+bool is_degenerate(std::span<const Vec3> vertices, const Triangle& triangle);
+/// For each triangle 1 when it is degenerate, else 0.
 std::vector<std::uint8_t> find_degenerate_triangles(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                                                     const Threads& threads);
 

@@ -13,14 +13,15 @@ PointResults results_by_row(const Scene& scene, const Surface& surface, const Th
   const Tetrahedralization& t = scene.tetrahedralization;
   const SampleModel& model = scene.measures.model;
   Classification classes = classify_samples(t, surface, model, threads);
-  const std::vector<float> noise = noise_to_fit(surface, model, SurfaceKind::automatic, threads);
+  const SurfaceFans fans(surface.mesh);
+  const std::vector<float> noise = noise_to_fit(surface, fans, model, SurfaceKind::automatic, threads);
   IndexedArray<SampleIndex, Vec3> normals;
   if (noise.empty()) {
     normals = orient_samples(t, surface, classes, scene.measures.grid, threads);
   } else {
     Surface fitted = surface;
     const auto samples = std::span(t.positions.raw()).first(t.sample_count);
-    fitted.mesh.vertices = fitted_vertices(surface, samples, model, noise, threads);
+    fitted.mesh.vertices = fitted_vertices(surface, fans, samples, model, noise, threads);
     classify_by_distance(t, fitted, model, noise, classes, threads);
     normals = orient_samples(t, fitted, classes, {}, threads); // it needs no smoothing
   }

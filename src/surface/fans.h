@@ -3,6 +3,7 @@
 /// The triangles around each vertex of a surface.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -30,6 +31,14 @@ class SurfaceFans {
         })) {}
 
   [[nodiscard]] std::span<const Wing> operator[](std::size_t v) const { return wings_[v]; }
+  /// Is an edge of the vertex a side of one triangle only?
+  [[nodiscard]] bool at_rim(std::size_t v) const {
+    const std::span<const Wing> wings = wings_[v];
+    return std::any_of(wings.begin(), wings.end(), [&](const Wing& wing) {
+      return std::none_of(wings.begin(), wings.end(), [&](const Wing& w) { return w.last == wing.next; }) ||
+             std::none_of(wings.begin(), wings.end(), [&](const Wing& w) { return w.next == wing.last; });
+    });
+  }
 
  private:
   CompressedRows<Wing> wings_;

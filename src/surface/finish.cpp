@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "fit/fit.h"
@@ -24,16 +25,13 @@ bool is_exact_translation(const Tetrahedralization& t, const PointCloud& cloud, 
 }
 
 /// Moves vertices to the middle of the noise. \return whether any moved
-bool fit(Surface& surface, const Scene& scene, const Context& context) {
-  const auto& [options, run, threads] = context;
+bool fit(Surface& surface, const SurfaceFans& fans, const Scene& scene, SurfaceKind kind, const Threads& threads) {
   const Tetrahedralization& t = scene.tetrahedralization;
   const SampleModel& model = scene.measures.model;
-  const std::vector<float> noise = noise_to_fit(surface, model, options.surface, threads);
+  const std::vector<float> noise = noise_to_fit(surface, fans, model, kind, threads);
   if (noise.empty()) return false;
-  run.stage("fit", [&] {
-    const auto samples = std::span(t.positions.raw()).first(t.sample_count);
-    surface.mesh.vertices = fitted_vertices(surface, samples, model, noise, threads);
-  });
+  const auto samples = std::span(t.positions.raw()).first(t.sample_count);
+  surface.mesh.vertices = fitted_vertices(surface, fans, samples, model, noise, threads);
   return true;
 }
 
@@ -49,13 +47,13 @@ MovedReport distances_moved(std::span<const Vec3> before, std::span<const Vec3> 
 
 /// No crossings, and no piece that turned over: pieces that did are back at their rows, and what crosses these moves
 /// on.
-UncrossCounts settle_moved(const std::vector<Vec3>& rows, const SampleModel& model, TriangleMesh& mesh,
-                           const Threads& threads) {
-  UncrossCounts counts = uncross(rows, model.typical_spacing, mesh, threads);
+UncrossCounts settle_moved(const std::vector<Vec3>& rows, const SampleModel& model, const SurfaceFans& fans,
+                           TriangleMesh& mesh, const Threads& threads) {
+  UncrossCounts counts = uncross(rows, model.typical_spacing, fans, mesh, threads);
   for (std::uint64_t pieces = 0;;) {
     const std::uint64_t before = std::exchange(pieces, take_back_turned(rows, mesh, threads).pieces);
     if (pieces <= before) return counts; // those that were taken back are found again
-    const UncrossCounts again = uncross(rows, model.typical_spacing, mesh, threads);
+    const UncrossCounts again = uncross(rows, model.typical_spacing, fans, mesh, threads);
     counts.crossings += again.crossings;
     counts.eased += again.eased;
     counts.left = again.left;
@@ -118,31 +116,48 @@ TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, co
   return mesh;
 }
 
-} // namespace
-
-TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene, const Context& context) {
+/// Fits and smoothes, and sees that nothing crosses. \return whether the vertices, in input coordinates then, moved
+bool move_vertices(Surface& surface, const PointCloud& cloud, const Scene& scene, const Context& context) {
   const auto& [options, run, threads] = context;
+  run.report().moved.reset();
+  if (options.surface == SurfaceKind::samples && options.smooth == 0) return false;
   const Tetrahedralization& t = scene.tetrahedralization;
   const std::vector<Vec3> rows = input_points(surface.sample_of, t, cloud);
-  const bool fitted = fit(surface, scene, context);
+  std::optional<SurfaceFans> fans;
+  bool fitted = false;
+  if (options.surface != SurfaceKind::samples)
+    run.stage("fit", [&] {
+      fans.emplace(surface.mesh);
+      fitted = fit(surface, *fans, scene, options.surface, threads);
+    });
+  if (!fitted && options.smooth == 0) return false;
   if (options.smooth > 0)
     run.stage("smoothing", [&] {
       smooth(surface.mesh, options.smoothing, options.smooth, threads);
       to_input_coordinates(surface, t, rows); // where this rounds, neighbours could meet
       return take_back_turned(rows, surface.mesh, threads);
     });
-  else if (fitted)
+  else
     to_input_coordinates(surface, t, rows);
-  const bool moved = fitted || options.smooth > 0;
-  run.report().moved.reset();
-  if (moved) {
-    run.stage("crossings", [&] { return settle_moved(rows, scene.measures.model, surface.mesh, threads); });
-    run.report().moved = distances_moved(rows, surface.mesh.vertices);
-  }
+  run.stage("crossings", [&] {
+    if (!fans) fans.emplace(surface.mesh);
+    return settle_moved(rows, scene.measures.model, *fans, surface.mesh, threads);
+  });
+  run.report().moved = distances_moved(rows, surface.mesh.vertices);
+  return true;
+}
+
+} // namespace
+
+TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene, const Context& context) {
+  const auto& [options, run, threads] = context;
+  const bool moved = move_vertices(surface, cloud, scene, context);
   std::optional<Base>& base = run.report().base;
   base.reset();
   if (options.base) base = put_on_base(surface, scene, moved, run.report().surroundings.front);
-  return run.stage("attributes", [&] { return finish_mesh(surface, t, cloud, moved, base ? base->vertices : 0); });
+  return run.stage("attributes", [&] {
+    return finish_mesh(surface, scene.tetrahedralization, cloud, moved, base ? base->vertices : 0);
+  });
 }
 
 void check(const TriangleMesh& mesh, const PointCloud& cloud, const Scene& scene, const ValidateOptions& checks,

@@ -232,7 +232,7 @@ TEST(SampleClusters, EveryLevelIsAboutAQuarterOfTheOneBelowAndHoldsAllItsSamples
   std::vector<std::uint32_t> vertex_of(points.size());
   for (std::uint32_t s = 0; s < points.size(); ++s) vertex_of[s] = s;
   const auto& vertices = result.mesh.vertices;
-  const ClusterPyramid pyramid(SurfaceFans(result.mesh), vertices, vertices, vertex_of, Threads(2));
+  const ClusterPyramid pyramid(SurfaceFans(result.mesh), vertices, vertices, vertices, vertex_of, Threads(2));
   ASSERT_GE(pyramid.levels(), 4);
   for (std::size_t l = 1; l < pyramid.levels(); ++l) {
     const auto &fine = pyramid[l - 1], &coarse = pyramid[l];

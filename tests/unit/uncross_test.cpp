@@ -28,7 +28,7 @@ TEST(Uncross, WhatDoesNotCrossIsLeftAlone) {
   const TriangleMesh sphere = shapes::icosphere(3);
   TriangleMesh mesh = tangled(sphere, 1, 0.01);
   const std::vector<Vec3> moved = mesh.vertices;
-  const UncrossCounts counts = uncross(sphere.vertices, spacing, mesh, Threads(2));
+  const UncrossCounts counts = uncross(sphere.vertices, spacing, SurfaceFans(mesh), mesh, Threads(2));
   EXPECT_EQ(counts.crossings, 0);
   EXPECT_EQ(counts.eased, 0);
   for (std::size_t v = 0; v < moved.size(); ++v) EXPECT_LT(distance(mesh.vertices[v], moved[v]), 1e-6);
@@ -37,10 +37,10 @@ TEST(Uncross, WhatDoesNotCrossIsLeftAlone) {
 TEST(Uncross, CoordinatesBecomeFloatsWhereThatIsFineEnough) {
   const TriangleMesh sphere = shapes::icosphere(2);
   TriangleMesh near = tangled(sphere, 1, 0.001), fine = near;
-  uncross(sphere.vertices, spacing, near, Threads(1));
+  uncross(sphere.vertices, spacing, SurfaceFans(near), near, Threads(1));
   for (const Vec3& p : near.vertices) EXPECT_EQ(p.x, static_cast<double>(static_cast<float>(p.x)));
   const std::vector<Vec3> exact = fine.vertices;
-  uncross(sphere.vertices, 0, fine, Threads(1));
+  uncross(sphere.vertices, 0, SurfaceFans(fine), fine, Threads(1));
   EXPECT_EQ(fine.vertices, exact);
 }
 
@@ -49,7 +49,7 @@ TEST(Uncross, OneVertexPulledThroughTheOtherSideComesBack) {
   TriangleMesh mesh = sphere;
   mesh.vertices[100] = -1.5 * mesh.vertices[100];
   ASSERT_GT(validate(mesh).self_intersections, 0);
-  const UncrossCounts counts = uncross(sphere.vertices, spacing, mesh, Threads(2));
+  const UncrossCounts counts = uncross(sphere.vertices, spacing, SurfaceFans(mesh), mesh, Threads(2));
   EXPECT_GT(counts.crossings, 0);
   EXPECT_EQ(counts.left, 0);
   EXPECT_EQ(validate(mesh).self_intersections, 0);
@@ -65,8 +65,8 @@ TEST(Uncross, WildTanglesComeOutForAnyNumberOfThreads) {
   for (const double most : {0.1, 0.5, 3.0}) {
     TriangleMesh mesh = tangled(sphere, 2, most), other = mesh;
     ASSERT_GT(validate(mesh).self_intersections, 0);
-    EXPECT_EQ(uncross(sphere.vertices, spacing, mesh, Threads(1)).left, 0);
-    uncross(sphere.vertices, spacing, other, Threads(3));
+    EXPECT_EQ(uncross(sphere.vertices, spacing, SurfaceFans(mesh), mesh, Threads(1)).left, 0);
+    uncross(sphere.vertices, spacing, SurfaceFans(other), other, Threads(3));
     EXPECT_EQ(validate(mesh).self_intersections, 0);
     EXPECT_EQ(validate(mesh).degenerate_triangles, 0);
     EXPECT_EQ(mesh.vertices, other.vertices);
@@ -79,7 +79,7 @@ TEST(Uncross, VerticesThatMeetArePartedAndTrianglesWithoutAreaOpened) {
   mesh.vertices[0] = mesh.vertices[40];
   mesh.vertices[mesh.triangles[50][0]] =
       0.5 * (mesh.vertices[mesh.triangles[50][1]] + mesh.vertices[mesh.triangles[50][2]]);
-  uncross(sphere.vertices, spacing, mesh, Threads(1));
+  uncross(sphere.vertices, spacing, SurfaceFans(mesh), mesh, Threads(1));
   const MeshSummary summary = validate(mesh);
   EXPECT_TRUE(summary.closed() && summary.manifold());
   EXPECT_EQ(summary.self_intersections, 0);
@@ -91,7 +91,7 @@ TEST(Uncross, AnOpenMeshKeepsItsRimWhereItIs) {
   TriangleMesh mesh = before;
   mesh.vertices[0] = {4.2, 4.3, 0}; // a corner, over to the other side
   ASSERT_GT(validate(mesh).self_intersections, 0);
-  EXPECT_EQ(uncross(before.vertices, spacing, mesh, Threads(1)).left, 0);
+  EXPECT_EQ(uncross(before.vertices, spacing, SurfaceFans(mesh), mesh, Threads(1)).left, 0);
   EXPECT_EQ(validate(mesh).self_intersections, 0);
 }
 
