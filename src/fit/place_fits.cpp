@@ -22,7 +22,7 @@ constexpr double over_model = 1.2;
 // Clusters are as coarse as leaves so many of them in a fit that is compared with others.
 constexpr double enough_to_choose = 25;
 // What the means over few places leave of the bias counts so much: more leaves noise in, less rounds off what is sharp.
-constexpr double bias_counts = 0.6;
+constexpr double bias_counts = 0.8;
 // A width whose risk is so many times that of another is the last one looked at.
 constexpr double hopeless = 3;
 // In noise of less than so many spacings every third place is looked at; in more each counts.
@@ -152,7 +152,7 @@ class WidthChoice {
         samples_(samples),
         threads_(threads),
         running_(places.wanted),
-        noise_(places.position.size(), 0),
+        noise_(places.position.size(), -1),
         bias_(noise_.size(), 0),
         choice_(noise_.size(), -1),
         fitted_(noise_.size(), 0) {
@@ -193,20 +193,17 @@ class WidthChoice {
           if (!found) continue;
           level.offset[p] = static_cast<float>(found->offset(places_.position[p], places_.normal[p]));
           level.variance[p] = static_cast<float>(found->variance);
-          if (noise_[p] == 0) noise_[p] = found->noise_variance;
+          if (noise_[p] < 0) noise_[p] = found->noise_variance;
         }
       }
     });
   }
 
-  /// The narrowest fits know the noise best, but where the shape is as fine they take that for noise, too.
+  /// The narrowest fits know the noise best. The model knows too little of it in thin parts, and is not asked.
   void find_noise() {
     const std::vector<double> mean = pooled(noise_);
-    for (std::size_t p = 0; p < mean.size(); ++p) {
-      const double most =
-          places_.noise[p] > 0 ? over_model * places_.noise[p] : std::numeric_limits<double>::infinity();
-      noise_[p] = std::min(mean[p] > 0 ? mean[p] : noise_[p], most * most);
-    }
+    for (std::size_t p = 0; p < mean.size(); ++p)
+      if (mean[p] >= 0) noise_[p] = mean[p];
   }
 
   void weigh(std::size_t k) {
@@ -279,7 +276,7 @@ class WidthChoice {
   const ClusterPyramid& samples_;
   const Threads& threads_;
   std::vector<std::uint8_t> running_; ///< places whose risk may still fall
-  std::vector<double> noise_;         ///< variance
+  std::vector<double> noise_;         ///< variance; negative: unknown
   std::vector<double> bias_;          ///< square, of the level before or of narrower ones
   std::vector<double> choice_;
   std::vector<std::uint8_t> fitted_; ///< the number of widths that were

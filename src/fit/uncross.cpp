@@ -39,16 +39,15 @@ class Uncrossing {
 
   UncrossCounts run() {
     UncrossCounts counts;
-    std::vector<std::uint8_t> asked;
-    for (bool first = true;; first = false) {
-      const std::vector<std::uint32_t> bad = bad_triangles(asked, counts.left);
-      if (first) counts.crossings = counts.left;
-      if (bad.empty() || !ease(bad)) break;
-      asked = touched();
-      for_each_index(threads_, asked.size(), [&](std::size_t t) {
-        if (asked[t]) degenerate_[t] = is_degenerate(mesh_.vertices, mesh_.triangles[t]);
-      });
+    CrossingSearch search(mesh_.vertices, mesh_.triangles, degenerate_, threads_);
+    std::vector<CrossingSearch::Pair> pairs = search.all(threads_);
+    counts.crossings = pairs.size();
+    while (ease(bad_triangles(pairs))) {
+      const std::vector<std::uint32_t> changed = changed_triangles();
+      for (const std::uint32_t t : changed) degenerate_[t] = is_degenerate(mesh_.vertices, mesh_.triangles[t]);
+      pairs = search.of_changed(changed, threads_);
     }
+    counts.left = pairs.size();
     counts.eased =
         static_cast<std::uint64_t>(std::count_if(steps_.begin(), steps_.end(), [](std::uint8_t s) { return s > 0; }));
     return counts;
@@ -56,9 +55,7 @@ class Uncrossing {
 
  private:
   /// Triangles that cross one another or have no area, increasing.
-  std::vector<std::uint32_t> bad_triangles(std::span<const std::uint8_t> asked, std::uint64_t& crossings) const {
-    const auto pairs = find_self_intersections(mesh_.vertices, mesh_.triangles, degenerate_, asked, threads_);
-    crossings = pairs.size();
+  [[nodiscard]] std::vector<std::uint32_t> bad_triangles(const std::vector<CrossingSearch::Pair>& pairs) const {
     std::vector<std::uint32_t> bad;
     for (const auto& [f, g] : pairs) {
       bad.push_back(f);
@@ -101,13 +98,16 @@ class Uncrossing {
     return rounded(before_[v] + share * (fitted_[v] - before_[v]));
   }
 
-  [[nodiscard]] std::vector<std::uint8_t> touched() const {
-    std::vector<std::uint8_t> of_vertex(mesh_.vertices.size(), 0), touched(mesh_.triangles.size(), 0);
+  /// Those at vertices that moved in the last step, increasing.
+  [[nodiscard]] std::vector<std::uint32_t> changed_triangles() const {
+    std::vector<std::uint8_t> of_vertex(mesh_.vertices.size(), 0);
     for (const std::uint32_t v : moved_) of_vertex[v] = 1;
-    for_each_index(threads_, touched.size(), [&](std::size_t t) {
-      for (const std::uint32_t v : mesh_.triangles[t]) touched[t] |= of_vertex[v];
-    });
-    return touched;
+    std::vector<std::uint32_t> changed;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh_.triangles[t];
+      if (of_vertex[a] | of_vertex[b] | of_vertex[c]) changed.push_back(t);
+    }
+    return changed;
   }
 
   [[nodiscard]] double rounded(double x) const {

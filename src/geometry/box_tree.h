@@ -40,7 +40,7 @@ class BoxTree {
   void overlapping_leaves(const Box3& box, Visit&& visit) const {
     std::array<std::uint32_t, max_depth> stack;
     std::size_t top = 0;
-    stack[top++] = 0;
+    if (!nodes_.empty()) stack[top++] = 0;
     while (top > 0) {
       const std::uint32_t i = stack[--top];
       const Node& node = nodes_[i];

@@ -253,7 +253,7 @@ MeshSummary validate(const TriangleMesh& mesh, const ValidateOptions& options) {
     // Where vertices were left apart, equal ones still count as shared: touching there is no crossing.
     const std::vector<Triangle> joined = options.merge_equal_vertices ? merged.all : merged_triangles(mesh, true).all;
     summary.self_intersections =
-        static_cast<std::int64_t>(count_self_intersections(mesh.vertices, joined, degenerate, threads));
+        static_cast<std::int64_t>(CrossingSearch(mesh.vertices, joined, degenerate, threads).count(threads));
   }
   return summary;
 }

@@ -4,8 +4,12 @@
 #include <eigencrust/validate.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
+#include <tuple>
 
+#include "counter_random.h"
 #include "geometry/self_intersections.h"
 #include "shapes.h"
 
@@ -95,23 +99,66 @@ TEST(Uncross, AnOpenMeshKeepsItsRimWhereItIs) {
   EXPECT_EQ(validate(mesh).self_intersections, 0);
 }
 
-TEST(FindSelfIntersections, ThePairsThatAreCountedEachOnceAndThoseAskedFor) {
+std::vector<CrossingSearch::Pair> ordered(std::vector<CrossingSearch::Pair> pairs) {
+  for (auto& [f, g] : pairs) std::tie(f, g) = std::minmax({f, g});
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+TEST(CrossingSearch, FindsThePairsThatItCountsEachOnce) {
   const TriangleMesh mesh = tangled(shapes::icosphere(3), 2, 0.6);
   const std::vector<std::uint8_t> sound(mesh.triangles.size(), 0);
-  const auto all = find_self_intersections(mesh.vertices, mesh.triangles, sound, {}, Threads(2));
-  EXPECT_EQ(all.size(), count_self_intersections(mesh.vertices, mesh.triangles, sound, Threads(2)));
-  std::vector<std::uint8_t> asked(mesh.triangles.size(), 0);
-  for (std::size_t t = 0; t < asked.size(); t += 7) asked[t] = 1;
-  const auto ordered = [](auto pairs) {
-    for (auto& [f, g] : pairs) std::tie(f, g) = std::minmax({f, g});
-    std::sort(pairs.begin(), pairs.end());
-    return pairs;
-  };
-  auto expected = ordered(all);
-  EXPECT_EQ(std::adjacent_find(expected.begin(), expected.end()), expected.end());
-  std::erase_if(expected, [&](const auto& pair) { return !asked[pair[0]] && !asked[pair[1]]; });
-  ASSERT_GT(expected.size(), 10);
-  EXPECT_EQ(ordered(find_self_intersections(mesh.vertices, mesh.triangles, sound, asked, Threads(2))), expected);
+  const CrossingSearch search(mesh.vertices, mesh.triangles, sound, Threads(2));
+  const auto all = ordered(search.all(Threads(2)));
+  EXPECT_EQ(all.size(), search.count(Threads(2)));
+  EXPECT_EQ(std::adjacent_find(all.begin(), all.end()), all.end());
+  EXPECT_EQ(search.all(Threads(2)), CrossingSearch(mesh.vertices, mesh.triangles, sound, Threads(1)).all(Threads(1)));
+}
+
+TEST(CrossingSearch, FindsThePairsOfWhatMovedAsANewSearchDoes) {
+  TriangleMesh mesh = tangled(shapes::icosphere(3), 2, 0.6);
+  std::vector<std::uint8_t> degenerate(mesh.triangles.size(), 0);
+  const Threads threads(2);
+  CrossingSearch search(mesh.vertices, mesh.triangles, degenerate, threads);
+  for (std::uint32_t step = 0; step < 3; ++step) {
+    // Other vertices in each step, some of them far away; one triangle comes to have no area, and is whole again.
+    for (std::size_t v = step; v < mesh.vertices.size(); v += 11) {
+      const tools::CounterRandom random(step, 5, v);
+      mesh.vertices[v] = mesh.vertices[v] + 0.3 * Vec3{random.normal(0), random.normal(2), random.normal(4)};
+    }
+    degenerate[5] = step == 1;
+    std::vector<std::uint32_t> changed;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+      for (const std::uint32_t v : mesh.triangles[t])
+        if ((v % 11 == step || t == 5) && (changed.empty() || changed.back() != t)) changed.push_back(t);
+    auto expected = ordered(CrossingSearch(mesh.vertices, mesh.triangles, degenerate, threads).all(threads));
+    std::erase_if(expected, [&](const auto& pair) {
+      return !std::binary_search(changed.begin(), changed.end(), pair[0]) &&
+             !std::binary_search(changed.begin(), changed.end(), pair[1]);
+    });
+    ASSERT_GT(expected.size(), 10);
+    EXPECT_EQ(ordered(search.of_changed(changed, threads)), expected) << step;
+  }
+}
+
+TEST(CrossingSearch, KnowsSidesThatFloatingPointCannotTell) {
+  // A tip exactly on another triangle, one last place above it, and below: apart only above.
+  for (const double far : {0.0, 1e6}) {
+    const auto crossings = [&](double height) {
+      const std::vector<Vec3> p{{far, far, far},
+                                {far + 1, far, far + 1},
+                                {far, far + 1, far + 1},
+                                {far + 0.25, far + 0.25, height},
+                                {far + 0.3, far + 0.2, far + 9},
+                                {far + 0.2, far + 0.3, far + 9}};
+      const std::vector<Triangle> t{{0, 1, 2}, {3, 4, 5}};
+      return CrossingSearch(p, t, std::vector<std::uint8_t>(2, 0), Threads(1)).count(Threads(1));
+    };
+    const double on = far + 0.5;
+    EXPECT_EQ(crossings(on), 1u);
+    EXPECT_EQ(crossings(std::nextafter(on, 2e9)), 0u);
+    EXPECT_EQ(crossings(std::nextafter(on, 0)), 1u);
+  }
 }
 
 } // namespace
