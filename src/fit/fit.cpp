@@ -51,8 +51,7 @@ std::vector<std::uint32_t> pieces_of(const Surface& surface) {
 /// Laplacian steps, in which vertices may come to lie on one another: nothing but a start. Rims stay.
 std::vector<Vec3> smoothed(std::vector<Vec3> vertices, const SurfaceFans& fans, const Threads& threads) {
   std::vector<Vec3> next(vertices.size());
-  std::vector<std::uint8_t> at_rim(vertices.size());
-  for_each_index(threads, vertices.size(), [&](std::size_t v) { at_rim[v] = fans.at_rim(v); });
+  const std::vector<std::uint8_t> at_rim = fans.rim_vertices(threads);
   for (int step = 0; step < smoothing_steps; ++step) {
     for_each_index(threads, vertices.size(), [&](std::size_t v) {
       next[v] = vertices[v];

@@ -51,7 +51,7 @@ UncrossCounts settle_moved(const std::vector<Vec3>& rows, const SampleModel& mod
                            TriangleMesh& mesh, const Threads& threads) {
   UncrossCounts counts = uncross(rows, model.typical_spacing, fans, mesh, threads);
   for (std::uint64_t pieces = 0;;) {
-    const std::uint64_t before = std::exchange(pieces, take_back_turned(rows, mesh, threads).pieces);
+    const std::uint64_t before = std::exchange(pieces, take_back_turned(rows, fans, mesh, threads).pieces);
     if (pieces <= before) return counts; // those that were taken back are found again
     const UncrossCounts again = uncross(rows, model.typical_spacing, fans, mesh, threads);
     counts.crossings += again.crossings;
@@ -133,16 +133,14 @@ bool move_vertices(Surface& surface, const PointCloud& cloud, const Scene& scene
   if (!fitted && options.smooth == 0) return false;
   if (options.smooth > 0)
     run.stage("smoothing", [&] {
+      if (!fans) fans.emplace(surface.mesh);
       smooth(surface.mesh, options.smoothing, options.smooth, threads);
       to_input_coordinates(surface, t, rows); // where this rounds, neighbours could meet
-      return take_back_turned(rows, surface.mesh, threads);
+      return take_back_turned(rows, *fans, surface.mesh, threads);
     });
   else
     to_input_coordinates(surface, t, rows);
-  run.stage("crossings", [&] {
-    if (!fans) fans.emplace(surface.mesh);
-    return settle_moved(rows, scene.measures.model, *fans, surface.mesh, threads);
-  });
+  run.stage("crossings", [&] { return settle_moved(rows, scene.measures.model, *fans, surface.mesh, threads); });
   run.report().moved = distances_moved(rows, surface.mesh.vertices);
   return true;
 }
