@@ -7,6 +7,7 @@
 #include "geometry/place_hash.h"
 
 namespace eigencrust {
+
 void set_sensor_rows(PointCloud& cloud, std::span<const Vec3> places) {
   std::unordered_map<Vec3, std::uint32_t, PlaceHash> numbers;
   cloud.sensors.clear();

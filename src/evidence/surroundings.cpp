@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include <eigencrust/error.h>
@@ -66,7 +67,8 @@ class Columns {
   using Entry = std::pair<Place, std::uint32_t>;
 
   [[nodiscard]] Place place_of(const Vec3& p) const {
-    constexpr double farthest = 1e15; // what is beyond shares the outermost columns
+    // What is beyond shares the outermost columns.
+    constexpr double farthest = std::numeric_limits<std::int32_t>::max();
     const auto number = [&](double x) {
       return static_cast<std::int64_t>(std::clamp(std::floor(x / side_), -farthest, farthest));
     };
@@ -82,7 +84,7 @@ class Columns {
 /// behind it.
 double unexplained_height(const SampleModel& model, SampleIndex s, double across) {
   // Two noisy samples differ by more than that once in fifty times; the rest is for what is flat only nearly.
-  constexpr double noise_of_two = 3 * 1.42, unevenness = 0.3, steepest = 2;
+  constexpr double noise_of_two = noise_bound * std::numbers::sqrt2, unevenness = 0.3, steepest = 2;
   return steepest * across + unevenness * static_cast<double>(model.spacing[s.value]) +
          noise_of_two * static_cast<double>(model.noise[s.value]);
 }
@@ -136,7 +138,8 @@ double cap_of(const Scene& scene, int axis, const Threads& threads) {
   for (std::size_t k = 0; k < some.size(); ++k) {
     behind += space[k][0];
     before += space[k][1];
-    shallow += unevenness * std::pow(static_cast<double>(scene.measures.model.spacing[some[k].value]), 3);
+    const auto spacing = static_cast<double>(scene.measures.model.spacing[some[k].value]);
+    shallow += unevenness * spacing * spacing * spacing;
   }
   // Flat as far as can be told: a plane has no side behind it.
   return behind + before < shallow ? std::numeric_limits<double>::infinity() : behind / std::max(before, shallow);
@@ -162,7 +165,8 @@ double share_on_hull(const Scene& scene, int axis) {
     double longest = 0, spacing = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       longest = std::max(longest, norm(t.positions[corner[(k + 1) % 3]] - t.positions[corner[k]]));
-      spacing += static_cast<double>(scene.measures.model.spacing[corner[k].value]) / 3;
+      spacing +=
+          static_cast<double>(scene.measures.model.spacing[corner[k].value]) / static_cast<double>(corner.size());
     }
     const Vec3& p = t.positions[corner[0]];
     const Vec3 n = cross(t.positions[corner[1]] - p, t.positions[corner[2]] - p);
@@ -178,8 +182,8 @@ std::vector<double> hull_area(const Tetrahedralization& t) {
   std::vector<double> area(t.sample_count, 0);
   for_each_hull_triangle(t, [&](const std::array<SampleIndex, 3>& corner, SampleIndex) {
     const Vec3& p = t.positions[corner[0]];
-    const double third = norm(cross(t.positions[corner[1]] - p, t.positions[corner[2]] - p)) / 6;
-    for (const SampleIndex s : corner) area[s.value] += third;
+    const double whole = norm(cross(t.positions[corner[1]] - p, t.positions[corner[2]] - p)) / 2;
+    for (const SampleIndex s : corner) area[s.value] += whole / static_cast<double>(corner.size());
   });
   return area;
 }

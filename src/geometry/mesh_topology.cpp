@@ -28,6 +28,16 @@ std::vector<Side> sorted_sides(std::span<const Triangle> triangles, std::size_t 
   return std::move(rows.item);
 }
 
+std::vector<std::uint32_t> along_rims(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> next(mesh.vertices.size(), no_index);
+  for_each_edge(sorted_sides(mesh.triangles, mesh.vertices.size(), Threads(1)), [&](std::span<const Side> edge) {
+    if (edge.size() != 1) return;
+    const Side& side = edge[0];
+    next[side.forward ? side.low : side.high] = side.forward ? side.high : side.low;
+  });
+  return next;
+}
+
 std::vector<std::uint32_t> first_equal_vertex(std::span<const Vec3> vertices) {
   // A table with open addressing, at most half full.
   std::vector<std::uint32_t> slots(std::bit_ceil(2 * vertices.size() + 2), no_index);

@@ -89,6 +89,10 @@ inline Vec3 area_vector(const TriangleMesh& mesh, std::size_t triangle) {
   return cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
 }
 
+/// For each vertex at a rim the next one, along the triangle there; no_index for all others.
+/// \param mesh oriented, every vertex with one fan
+std::vector<std::uint32_t> along_rims(const TriangleMesh& mesh);
+
 /// For each vertex the first one with equal coordinates (itself when there is none before it). NaN
 /// equals nothing; -0 equals 0.
 std::vector<std::uint32_t> first_equal_vertex(std::span<const Vec3> vertices);

@@ -3,8 +3,9 @@
 /// Tables of places.
 #pragma once
 
-#include <bit>
-#include <cstdint>
+#include <array>
+#include <functional>
+#include <string_view>
 
 #include <eigencrust/types.h>
 
@@ -13,10 +14,8 @@ namespace eigencrust {
 /// Equal places have equal hashes: 0 and -0 are one number.
 struct PlaceHash {
   std::size_t operator()(const Vec3& p) const {
-    std::uint64_t hash = 0;
-    for (const double c : {p.x, p.y, p.z}) // multiply by the golden ratio, fold the upper bits in
-      hash = (hash ^ std::bit_cast<std::uint64_t>(c == 0 ? 0.0 : c)) * 0x9e3779b97f4a7c15u, hash ^= hash >> 29;
-    return hash;
+    const std::array key{p.x + 0.0, p.y + 0.0, p.z + 0.0}; // -0 is 0
+    return std::hash<std::string_view>()({reinterpret_cast<const char*>(key.data()), sizeof key});
   }
 };
 

@@ -22,7 +22,8 @@ inline std::array<Vec3, 4> corners_of(const Tetrahedralization& t, TetrahedronIn
   return {t.positions[a], t.positions[b], t.positions[c], t.positions[d]};
 }
 
-inline Vec3 centroid(const std::array<Vec3, 4>& corners) {
+template <std::size_t N>
+Vec3 centroid(const std::array<Vec3, N>& corners) {
   Vec3 sum;
   for (const Vec3& p : corners) sum = sum + p;
   return (1 / static_cast<double>(corners.size())) * sum;

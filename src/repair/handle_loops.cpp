@@ -12,7 +12,7 @@ constexpr std::uint32_t none = no_index;
 
 struct Edge {
   std::uint32_t low, high;   ///< vertices
-  std::uint32_t left, right; ///< triangles
+  std::uint32_t left, right; ///< triangles; right of a rim the number of all triangles: one face closes all rims
 };
 
 std::vector<Edge> edges_of(std::span<const Triangle> triangles, std::size_t vertices, const Threads& threads) {
@@ -20,7 +20,9 @@ std::vector<Edge> edges_of(std::span<const Triangle> triangles, std::size_t vert
   const std::vector<Side> sides = sorted_sides(triangles, vertices, threads);
   edges.reserve(sides.size() / 2);
   for_each_edge(sides, [&](std::span<const Side> edge) {
-    if (edge.size() == 2) edges.push_back({edge[0].low, edge[0].high, edge[0].triangle(), edge[1].triangle()});
+    if (edge.size() > 2) return;
+    const auto rim = static_cast<std::uint32_t>(triangles.size());
+    edges.push_back({edge[0].low, edge[0].high, edge[0].triangle(), edge.size() == 2 ? edge[1].triangle() : rim});
   });
   return edges;
 }
@@ -108,14 +110,16 @@ std::vector<std::vector<std::uint32_t>> handle_loops(std::span<const Triangle> t
                                                      std::uint32_t longest, const Threads& threads) {
   const std::vector<Edge> edges = edges_of(triangles, vertices, threads);
   const Forest forest = breadth_first(edges, vertices);
+  const bool has_rim =
+      std::any_of(edges.begin(), edges.end(), [&](const Edge& e) { return e.right == triangles.size(); });
   // Euler's formula for closed surfaces: nothing to look for where every piece is a sphere.
   const auto isolated = static_cast<std::int64_t>(forest.isolated);
-  const std::int64_t euler =
-      static_cast<std::int64_t>(vertices + triangles.size()) - isolated - static_cast<std::int64_t>(edges.size());
+  const std::int64_t euler = static_cast<std::int64_t>(vertices + triangles.size() + has_rim) - isolated -
+                             static_cast<std::int64_t>(edges.size());
   if (euler == 2 * (static_cast<std::int64_t>(forest.trees) - isolated)) return {};
   // The cotree takes the edges with the longest loops, so that the shortest are left.
   const std::vector<std::uint32_t> length = loop_lengths(edges, forest, longest, threads);
-  DisjointSets cotree(triangles.size());
+  DisjointSets cotree(triangles.size() + 1);
   std::vector<std::vector<std::uint32_t>> loops;
   for (const std::uint32_t i : by_length(length, longest)) {
     const Edge& e = edges[i];
@@ -125,6 +129,54 @@ std::vector<std::vector<std::uint32_t>> handle_loops(std::span<const Triangle> t
       loops.push_back(loop_through(forest, e));
   }
   std::reverse(loops.begin(), loops.end());
+  return loops;
+}
+
+LoopsNearby::LoopsNearby(std::span<const Triangle> triangles, std::size_t vertices)
+    : triangles_(triangles),
+      of_vertex_(build_rows<std::uint32_t>(vertices,
+                                           [&](auto&& visit) {
+                                             for (std::uint32_t i = 0; i < triangles.size(); ++i)
+                                               for (const std::uint32_t v : triangles[i]) visit(v, i);
+                                           })),
+      number_(vertices, none) {}
+
+std::uint32_t LoopsNearby::number(std::uint32_t vertex) {
+  if (number_[vertex] == none) {
+    number_[vertex] = static_cast<std::uint32_t>(part_.size());
+    part_.push_back(vertex);
+  }
+  return number_[vertex];
+}
+
+std::vector<std::vector<std::uint32_t>> LoopsNearby::at(std::uint32_t root, std::uint32_t radius,
+                                                        const Threads& threads) {
+  part_.clear();
+  number(root);
+  std::size_t begin = 0;
+  for (std::uint32_t step = 0; step < radius; ++step) {
+    const std::size_t end = part_.size();
+    for (; begin < end; ++begin)
+      for (const std::uint32_t i : of_vertex_[part_[begin]])
+        for (const std::uint32_t v : triangles_[i]) number(v);
+  }
+  visited_ += part_.size();
+  std::vector<std::uint32_t> inner;
+  for (const std::uint32_t v : part_)
+    for (const std::uint32_t i : of_vertex_[v]) {
+      const Triangle& corners = triangles_[i];
+      if (std::all_of(corners.begin(), corners.end(), [&](std::uint32_t w) { return number_[w] != none; }))
+        inner.push_back(i);
+    }
+  std::sort(inner.begin(), inner.end());
+  inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
+  std::vector<Triangle> part;
+  for (const std::uint32_t i : inner)
+    part.push_back({number_[triangles_[i][0]], number_[triangles_[i][1]], number_[triangles_[i][2]]});
+  for (const std::uint32_t v : part_) number_[v] = none;
+  auto loops = handle_loops(part, part_.size(), 2 * radius, threads);
+  for (auto& loop : loops)
+    for (std::uint32_t& v : loop) v = part_[v];
   return loops;
 }
 

@@ -37,28 +37,51 @@ class HandleClosing {
 
   std::uint64_t close_short_loops(const Checkpoint& checkpoint) {
     const Surface surface = extract_surface(t_, moves_.labels().all(), moves_.scene.threads);
-    std::vector<std::uint8_t> changed(t_.positions.size(), 0);
+    const auto& triangles = surface.mesh.triangles;
+    const std::size_t vertices = surface.mesh.vertices.size();
+    LoopsNearby nearby(triangles, vertices);
+    changed_.assign(t_.positions.size(), 0);
     std::uint64_t closed = 0;
-    Loop loop;
-    for (const auto& vertices :
-         handle_loops(surface.mesh.triangles, surface.mesh.vertices.size(), longest_loop, moves_.scene.threads)) {
+    for (const auto& far : handle_loops(triangles, vertices, longest_loop, moves_.scene.threads)) {
       if (checkpoint) checkpoint(0);
-      loop.clear();
-      for (const std::uint32_t v : vertices) loop.push_back(surface.sample_of[v].value);
-      // What was changed nearby may have closed this one; the next round knows.
-      if (std::any_of(loop.begin(), loop.end(), [&](std::uint32_t s) { return changed[s] != 0; })) continue;
-      const double worth = worth_of(loop);
-      if (!(worth > 0) || failed_.count(loop) > 0) continue;
-      const Moves::Outcome best = close(loop, worth);
-      if (best.turned.empty()) {
-        failed_.insert(loop);
+      const Loop loop = samples_of(surface, far);
+      if (failed_.count(loop) > 0) continue;
+      if (close(loop)) {
+        ++closed;
         continue;
       }
-      moves_.make(best);
-      for (const std::uint32_t s : moves_.samples_of(best.turned)) changed[s] = 1;
-      ++closed;
+      // A loop seen from afar may go through one handle and around another; those from its own vertices go around one.
+      // All parts together are no larger than the surface: what is full of handles is no surface.
+      if (nearby.visited() > vertices) continue;
+      const auto radius = static_cast<std::uint32_t>((far.size() + 1) / 2);
+      for (const auto& near : nearby.at(far.front(), radius, moves_.scene.threads))
+        if (close(samples_of(surface, near))) {
+          ++closed;
+          break;
+        }
     }
     return closed;
+  }
+
+  static Loop samples_of(const Surface& surface, const std::vector<std::uint32_t>& vertices) {
+    Loop loop;
+    for (const std::uint32_t v : vertices) loop.push_back(surface.sample_of[v].value);
+    return loop;
+  }
+
+  bool close(const Loop& loop) {
+    // What was changed nearby may have closed this one; the next round knows.
+    if (std::any_of(loop.begin(), loop.end(), [&](std::uint32_t s) { return changed_[s] != 0; })) return false;
+    const double worth = worth_of(loop);
+    if (!(worth > 0) || failed_.count(loop) > 0) return false;
+    const Moves::Outcome best = best_move(loop, worth);
+    if (best.turned.empty()) {
+      failed_.insert(loop);
+      return false;
+    }
+    moves_.make(best);
+    for (const std::uint32_t s : moves_.samples_of(best.turned)) changed_[s] = 1;
+    return true;
   }
 
   /// g: what closing a handle of this loop is worth.
@@ -74,7 +97,7 @@ class HandleClosing {
   }
 
   /// The better of filling and cutting, of the disc alone or with the stars of the loop.
-  Moves::Outcome close(const Loop& loop, double worth) {
+  Moves::Outcome best_move(const Loop& loop, double worth) {
     Moves::Outcome best;
     for (const bool with_stars : {false, true}) {
       const Region disc = disc_of(loop, with_stars);
@@ -124,8 +147,9 @@ class HandleClosing {
   Moves& moves_;
   const Tetrahedralization& t_;
   const VertexStars& stars_;
-  std::set<Loop> failed_;           ///< loops that nothing closed
-  std::vector<std::uint8_t> taken_; ///< tetrahedra, while a region is gathered
+  std::set<Loop> failed_;             ///< loops that nothing closed
+  std::vector<std::uint8_t> changed_; ///< samples in this round
+  std::vector<std::uint8_t> taken_;   ///< tetrahedra, while a region is gathered
 };
 
 } // namespace

@@ -26,6 +26,23 @@ void describe_noise(std::vector<float> grid_spacing, Run& run) {
     run.count("sample_model", name, static_cast<double>(quantile(grid_spacing, share)));
 }
 
+/// Where half of the samples are farther off the surface than from one another; in merged range scans they are half as
+/// far.
+void warn_of_noise(const SampleModel& model, Run& run) {
+  std::vector<float> in_spacings(model.noise.size());
+  for (std::size_t s = 0; s < in_spacings.size(); ++s)
+    in_spacings[s] = model.noise[s] > 0 ? model.noise[s] / model.spacing[s] : 0;
+  if (in_spacings.empty() || !(median(in_spacings) > 1)) return;
+  std::vector<float> noise = model.noise;
+  char text[32];
+  const auto length = [&](double value) { return std::snprintf(text, sizeof text, "%.3g", value), std::string(text); };
+  const double deviation = static_cast<double>(median(noise));
+  run.warn("the noise is larger than the samples are apart (standard deviation " + length(deviation) +
+           "): edges become round, and parts thinner than about " +
+           length(2 * static_cast<double>(noise_bound) * deviation) +
+           " may be missing or grown together. If that is too much, --noise takes its standard deviation");
+}
+
 /// What the options promise and the mesh is not.
 std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Report& report) {
   const Options& options = report.options;
@@ -74,6 +91,7 @@ void describe(const SampleMeasures& measures, Run& run) {
   run.report().spacing = measures.model.typical_spacing;
   run.report().grid_spacing = measures.scan_grid_spacing;
   describe_noise(measures.grid, run);
+  warn_of_noise(measures.model, run);
   constexpr double least_flat = 0.02; // thin tubes have 0.05, other scans 0.4 and more
   if (measures.model.flat_share < least_flat)
     run.warn(

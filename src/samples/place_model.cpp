@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "samples/local_frame.h"
@@ -29,6 +30,13 @@ double thickness_without_growth(const LocalFrame& inner, const LocalFrame& outer
   const double wider = outer.variance[1] + outer.variance[2] - inner_width;
   const double slope = wider > 0 ? std::max(0.0, (outer.variance[0] - inner.variance[0]) / wider) : 0.0;
   return std::sqrt(std::max(0.0, inner.variance[0] - slope * inner_width));
+}
+
+/// In a ball much smaller than the noise samples lie as in a solid; the flatter they lie, the thinner it must be:
+/// 1 / thickness² = 1 / σ² + 1 / width² of noise cut by a ball, both as if they were Gaussian.
+double largest_variance_of_noise(const LocalFrame& frame) {
+  const double smaller = frame.variance[0], larger = frame.variance[1];
+  return larger > smaller ? smaller * larger / (larger - smaller) : std::numeric_limits<double>::infinity();
 }
 
 } // namespace
@@ -78,6 +86,7 @@ PlaceModel PlaceModels::at(const Vec3& place) const {
   const std::size_t levels = sizes.size() + coarser_.size();
   std::optional<LocalFrame> inner;
   std::size_t count = sizes[0];
+  double largest = std::numeric_limits<double>::infinity();
   for (std::size_t level = 0; level < levels; ++level, count *= growth) {
     const auto around = neighbours(level);
     const LocalFrame frame = local_frame(points(level), around, place);
@@ -86,11 +95,15 @@ PlaceModel PlaceModels::at(const Vec3& place) const {
       if (const auto deviation = deviation_within_sheets(points(level), around, frame)) return {true, *deviation};
       // A few samples lie in a plane by chance; the next larger neighbourhood has to agree.
       if (inner->is_flat()) {
-        const bool is_structure = level > 1 && is_smooth_up_close(points(level), around);
-        return {true, is_structure ? 0 : thickness_without_growth(*inner, frame)};
+        if (level > 1 && is_smooth_up_close(points(level), around)) return {true, 0};
+        // Parts of a body side by side, as a pair of legs, are thick from afar only.
+        if (inner->variance[0] > largest) return {};
+        return {true, thickness_without_growth(*inner, frame)};
       }
     }
     if (!is_flat && count * growth * least_neighbourhoods > positions_.size()) return {};
+    // Of fewer samples the smallest variance is small by chance.
+    if (around.size() == sizes.back()) largest = std::min(largest, largest_variance_of_noise(frame));
     inner = frame;
   }
   return {};

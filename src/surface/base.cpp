@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface/base.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +10,7 @@
 #include <eigencrust/error.h>
 
 #include "geometry/mesh_topology.h"
-#include "numerics/dense.h"
+#include "geometry/tetrahedron.h"
 #include "numerics/quantile.h"
 #include "surface/trim.h"
 
@@ -25,18 +26,11 @@ constexpr double gap = 1.0 / 500;
 
 /// The vertices of the one rim, each followed by the next along the triangle at the rim.
 std::vector<std::uint32_t> only_rim(const TriangleMesh& mesh) {
-  std::vector<std::uint32_t> next(mesh.vertices.size(), no_index);
-  std::size_t edges = 0;
-  std::uint32_t first = no_index;
-  for_each_edge(sorted_sides(mesh.triangles, mesh.vertices.size(), Threads(1)), [&](std::span<const Side> edge) {
-    if (edge.size() != 1) return;
-    const Side& side = edge[0];
-    const std::uint32_t from = side.forward ? side.low : side.high, to = side.forward ? side.high : side.low;
-    if (first == no_index) first = from;
-    next[from] = to;
-    ++edges;
-  });
+  const std::vector<std::uint32_t> next = along_rims(mesh);
+  const auto edges = next.size() - static_cast<std::size_t>(std::count(next.begin(), next.end(), no_index));
   if (edges == 0) refuse("the surface is closed: there is no rim to stand on a base", "leave out --base");
+  const auto first = static_cast<std::uint32_t>(
+      std::find_if(next.begin(), next.end(), [](std::uint32_t v) { return v != no_index; }) - next.begin());
   std::vector<std::uint32_t> rim;
   for (std::uint32_t v = first; rim.empty() || v != first; v = next[v]) {
     if (v == no_index || rim.size() == edges) break;
@@ -50,7 +44,8 @@ std::vector<std::uint32_t> only_rim(const TriangleMesh& mesh) {
 /// Where samples lie exactly above one another's edges, as those of a map's squares do, the hull hangs straight down
 /// from its rim: there the walls of the base will stand.
 void drop_upright_at_rim(const Vec3& along, Surface& surface) {
-  constexpr double upright = 1e-9; // sine of the slope to the axis
+  // Sine of the slope to the axis.
+  const double upright = std::sqrt(std::numeric_limits<double>::epsilon());
   std::vector<std::uint8_t> marked(surface.mesh.triangles.size());
   for (std::size_t i = 0; i < marked.size(); ++i) {
     const Vec3 normal = area_vector(surface.mesh, i);
@@ -83,9 +78,9 @@ Vec3 middle_of(const std::vector<Vec3>& rim) {
   for (std::size_t i = 0; i < rim.size(); ++i) {
     const Vec3 a = rim[i] - start, b = rim[(i + 1) % rim.size()] - start;
     area += turn(a, b);
-    sum = sum + turn(a, b) * (a + b);
+    sum = sum + turn(a, b) * centroid(std::array{Vec3{}, a, b});
   }
-  return start + 1 / (3 * area) * sum;
+  return start + 1 / area * sum;
 }
 
 /// Does the rim run once, counter-clockwise, around that place?
@@ -96,21 +91,20 @@ bool runs_around(const std::vector<Vec3>& rim, const Vec3& middle) {
     if (!(turn(a, b) > 0)) return false;
     angle += std::atan2(turn(a, b), a.x * b.x + a.y * b.y);
   }
-  return angle < 3 * std::numbers::pi;
+  return std::lround(angle / (2 * std::numbers::pi)) == 1;
 }
 
 /// The plane z = a (x - middle.x) + b (y - middle.y) + c by least squares: {a, b, c}.
 Vec3 plane_of(const std::vector<Vec3>& points, const Vec3& middle) {
-  double m[3][4] = {};
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const Vec3& p : points) {
-    const double row[4] = {p.x - middle.x, p.y - middle.y, 1, p.z};
-    for (int j = 0; j < 3; ++j)
-      for (int k = 0; k < 4; ++k) m[j][k] += row[j] * row[k];
+    const Eigen::Vector3d row(p.x - middle.x, p.y - middle.y, 1);
+    normal += row * row.transpose();
+    right += p.z * row;
   }
-  const auto column = [&](int k) { return Vec3{m[0][k], m[1][k], m[2][k]}; };
-  const Vec3 x = column(0), y = column(1), one = column(2), z = column(3);
-  const double all = dot(x, cross(y, one)); // > 0: the rim runs around a place
-  return 1 / all * Vec3{dot(z, cross(y, one)), dot(x, cross(z, one)), dot(x, cross(y, z))};
+  const Eigen::Vector3d plane = normal.ldlt().solve(right); // of full rank: the rim runs around a place
+  return {plane[0], plane[1], plane[2]};
 }
 
 double height_over(const Vec3& plane, const Vec3& middle, const Vec3& p) {
@@ -151,8 +145,8 @@ Vec3 plane_at_rim(const TriangleMesh& mesh, const std::vector<std::uint32_t>& ri
   for (const Vec3& p : outline) squares += std::pow(height_over(plane, middle, p), 2);
   for (const Vec3& p : points) sum += height_over(plane, middle, p);
   const auto few = static_cast<double>(outline.size()), many = static_cast<double>(points.size());
-  constexpr double deviations = 3;
-  return std::fabs(sum / many) <= deviations * std::sqrt(squares) / few ? plane_of(points, middle) : plane;
+  return std::fabs(sum / many) <= static_cast<double>(noise_bound) * std::sqrt(squares) / few ? plane_of(points, middle)
+                                                                                              : plane;
 }
 
 /// Volume between the surface and that plane, below it counting as negative.
@@ -161,9 +155,7 @@ double volume_above(const TriangleMesh& mesh, const Frame& frame, const Vec3& pl
   for (const auto& triangle : mesh.triangles) {
     std::array<Vec3, 3> p;
     for (std::size_t k = 0; k < 3; ++k) p[k] = frame.to(mesh.vertices[triangle[k]]);
-    double height = 0;
-    for (const Vec3& q : p) height += height_over(plane, middle, q) / 3;
-    volume += turn(p[1] - p[0], p[2] - p[0]) / 2 * height;
+    volume += turn(p[1] - p[0], p[2] - p[0]) / 2 * height_over(plane, middle, centroid(p));
   }
   return volume;
 }

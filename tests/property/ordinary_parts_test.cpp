@@ -141,6 +141,17 @@ TEST(OrdinaryParts, NoiseMeasuredIsReported) {
   EXPECT_NEAR(reported / 1.2, 0.05 / std::sqrt(3.0), 0.01); // deviation of even noise in ±0.05
 }
 
+TEST(OrdinaryParts, NoiseFarAboveTheSpacingGetsAWarning) {
+  // In spacings of 0.025: deviations of 3 and of 0.7.
+  const auto warns = [](double jitter) {
+    const Result result = reconstruct(clouds::cloud_of(clouds::jittered(clouds::sphere(20000), jitter, 5)));
+    return testing::Value(result.report.warnings,
+                          testing::Contains(testing::HasSubstr("noise is larger than the samples are apart")));
+  };
+  EXPECT_TRUE(warns(0.13));
+  EXPECT_FALSE(warns(0.03));
+}
+
 TEST(OrdinaryParts, PointsThatFillAVolumeGetAWarning) {
   const Result result = reconstruct(clouds::cloud_of(clouds::random_box(6000, 6)));
   EXPECT_THAT(result.report.warnings, testing::Contains(testing::HasSubstr("fill a volume")));

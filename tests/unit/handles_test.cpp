@@ -83,6 +83,22 @@ TEST(HandleLoops, OfTwoToriFourShortestFirst) {
   expect_loops_along_edges(loops, triangles); // none runs from one torus to the other
 }
 
+TEST(LoopsNearby, AreAsShortAsThereAreAnyThroughTheRoot) {
+  const auto triangles = torus_mesh(6, 9);
+  LoopsNearby nearby(triangles, 54);
+  for (std::uint32_t root = 0; root < 54; ++root) {
+    const std::vector<Loop> all = nearby.at(root, 9, Threads(2));
+    expect_loops_along_edges(all, triangles);
+    ASSERT_EQ(all.size(), 2u) << "from " << root;
+    EXPECT_EQ(all[0].size(), 6u);
+    EXPECT_EQ(all[1].size(), 9u);
+    const std::vector<Loop> near = nearby.at(root, 3, Threads(2));
+    ASSERT_EQ(near.size(), 1u) << "from " << root; // the longer way around is out of reach
+    EXPECT_EQ(near[0].size(), 6u);
+    EXPECT_TRUE(nearby.at(root, 2, Threads(2)).empty()); // a disc
+  }
+}
+
 /// Random points in a box; a solid in it, part of which hardly anyone vouches for.
 struct Solid : clouds::MoveStage {
   /// `inside(c)` and `open(c)` say what is true of the tetrahedron with that centroid; open ones have a data term of

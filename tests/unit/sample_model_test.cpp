@@ -101,6 +101,27 @@ TEST(SampleModel, ThinRodsAreNoNoise) {
   EXPECT_THAT(o.model.plane, testing::IsEmpty());
 }
 
+TEST(SampleModel, PartsSideBySideAreNoNoise) {
+  // A body with two legs, five deviations thick and side by side: together they are flat.
+  constexpr double sigma = 1;
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    clouds::Random random(seed);
+    Points points;
+    for (const Vec3& p : clouds::sphere(57000)) points.push_back(84.0 * p);
+    const std::size_t body = points.size();
+    for (const double x : {-13.0, 13.0})
+      for (int k = 0; k < 1350; ++k) {
+        const double angle = 2 * std::numbers::pi * random.uniform();
+        points.push_back({x + 5 * std::cos(angle), 5 * std::sin(angle), -80 - 68 * random.uniform()});
+      }
+    for (Vec3& p : points) p = p + sigma * Vec3{deviate(random), deviate(random), deviate(random)};
+    const Ordered o(points);
+    float most = 0;
+    for (std::size_t row = body; row < points.size(); ++row) most = std::max(most, o.model.noise[o.at(row)]);
+    EXPECT_LT(most, 1.5 * sigma) << "seed " << seed;
+  }
+}
+
 TEST(SampleModel, OneBodyDoesNotDecideForAnother) {
   // A clean sphere beside a noisy one of three times as many samples.
   const Points clean = clouds::sphere(10000), noisy = noisy_sphere(30000, 0.06, 7);
