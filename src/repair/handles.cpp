@@ -13,9 +13,11 @@ namespace eigencrust {
 namespace {
 
 // Noise makes tunnels and bridges as wide as this at most, in deviations. Closing one turns faces over a disc of that
-// radius, two for each sample, which cost about one each: g = 2π (16 σ / h)². Where there is no noise a handle is
-// meant.
+// radius, two for each sample, which cost about one each: g = 2π (16 σ / h)².
 constexpr double noise_reach = 16;
+// In spacings. Samples show a tunnel where they stand at half of its radius (Amenta and Bern's r = 1/2), 4π around it:
+// a narrower one may be a gap between them. A wider one is meant.
+constexpr double sampling_reach = 2;
 // Longer loops go around what is there.
 constexpr std::uint32_t longest_loop = 100;
 // Tetrahedra of a disc for each unit of what closing the handle is worth: each costs a good part of one.
@@ -84,7 +86,7 @@ class HandleClosing {
     return true;
   }
 
-  /// g: what closing a handle of this loop is worth.
+  /// g: what closing a handle of this loop is worth; 0: it is wider than that.
   double worth_of(const Loop& loop) const {
     const SampleModel& model = moves_.scene.model;
     double noise = 0, spacing = 0;
@@ -92,8 +94,9 @@ class HandleClosing {
       noise += static_cast<double>(model.noise[s]);
       spacing += static_cast<double>(model.spacing[s]);
     }
-    const double reach = noise_reach * noise / spacing;
-    return 2 * std::numbers::pi * reach * reach;
+    const double reach = std::max(noise_reach * noise / spacing, sampling_reach);
+    const bool is_meant = static_cast<double>(loop.size()) > 2 * std::numbers::pi * reach;
+    return is_meant ? 0 : 2 * std::numbers::pi * reach * reach;
   }
 
   /// The better of filling and cutting, of the disc alone or with the stars of the loop.

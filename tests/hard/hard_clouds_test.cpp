@@ -164,7 +164,8 @@ std::vector<HardCloud> of_odd_samplings() {
               return Vec3{p.x, p.y, 0.02 * p.z};
             }); },
        solid(0.02 * ball, 0.05)},
-      {"NoiseOfThreeSpacings", [] { return noisy_sphere(60000, 3 * 3.5 / std::sqrt(60000.0), 4); }, solid(ball, 0.03)},
+      {"NoiseOfThreeSpacings", [] { return noisy_sphere(60000, 3 * 3.5 / std::sqrt(60000.0), 4); },
+       told(ball, 0.03, "noise is larger than")},
       {"AHoleInTheSampling", [] { return kept(clouds::sphere(8000), [](const Vec3& p) { return p.z < 0.9; }); },
        solid(ball - pi * 0.01 * (3 - 0.1) / 3)},
       // Samples that stand alone must not say which side is which: the ball would be turned inside out.

@@ -180,12 +180,28 @@ TEST(CloseHandles, CutsAThinRing) {
   EXPECT_GT(after.volume, 0.5 * before.volume); // a cut, not the end of the ring
 }
 
-TEST(CloseHandles, WithoutNoiseEveryHandleIsMeant) {
-  Solid solid = pierced_ball(0.3f);
+TEST(CloseHandles, WithoutNoiseAWideHandleIsMeant) {
+  // A tunnel three spacings in radius, as little vouched for as the narrow one.
+  const auto in_wide = [](const Vec3& c) { return std::hypot(c.x, c.y) < 0.45 && std::fabs(c.z) < ball_radius; };
+  Solid solid([&](const Vec3& c) { return in_ball(c) && !in_wide(c); }, in_wide, 0.3f);
   solid.set_noise(0);
   expect_unchanged(solid);
   solid.set_noise(0.02f);
   expect_unchanged(solid);
+  solid.set_noise(1);
+  EXPECT_GT(solid.close(), 0u); // noise makes such tunnels
+  EXPECT_EQ(solid.summary().genus, 0);
+}
+
+TEST(CloseHandles, NarrowerThanSamplesShowIsClosedWhereHardlyAnyoneVouchesForIt) {
+  Solid solid = pierced_ball(0.01f);
+  solid.set_noise(0);
+  ASSERT_EQ(solid.summary().genus, 1);
+  EXPECT_EQ(solid.close(), 1u);
+  EXPECT_EQ(solid.summary().genus, 0);
+  Solid sure = pierced_ball(5.0f);
+  sure.set_noise(0);
+  expect_unchanged(sure);
 }
 
 TEST(CloseHandles, WhatTheSamplesVouchForStays) {
