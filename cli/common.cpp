@@ -280,6 +280,14 @@ std::string describe_size(const MeshSummary& mesh) {
   return (mesh.closed() ? "  volume " + rounded(mesh.volume) + ", area " : "  area ") + rounded(mesh.area);
 }
 
+std::string describe_moved(const Report& report) {
+  if (!report.moved) return {};
+  std::ostringstream out;
+  out << "  " << grouped(report.moved->vertices) << " vertices moved from their samples: median "
+      << rounded(report.moved->median) << ", 99 % below " << rounded(report.moved->q99) << "\n";
+  return out.str();
+}
+
 } // namespace
 
 std::string describe(const MeshSummary& mesh) { return describe_shape(mesh, "inward") + describe_size(mesh) + "\n"; }
@@ -292,12 +300,13 @@ std::string describe(const Report& report) {
     text += "  interior: free space of " + rounded(-mesh.volume) + ", walls of " + rounded(mesh.area) + "\n";
   else
     text += describe_size(mesh);
-  if (mesh.closed() && rooms) return text;
+  if (mesh.closed() && rooms) return text + describe_moved(report);
   if (!mesh.closed()) // what is left after trimming is covered
     text += ", " + (report.options.trim ? "all" : rounded(100 * (1 - report.unsupported_area)) + " %") +
             " of it covered by samples";
   if (report.base) text += "; " + rounded(report.base->volume_above_rim) + " above the plane of the rim";
   text += "\n";
+  text += describe_moved(report);
   if (report.surroundings.kind == SceneKind::facade)
     text += "  one side: seen from " + to_string(report.surroundings.front) + ", solid behind" +
             (report.options.facade

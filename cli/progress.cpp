@@ -25,7 +25,7 @@ struct StageShare {
   std::string_view name;
   double share;
 };
-constexpr std::array<StageShare, 27> shares{{{"reading", 3},
+constexpr std::array<StageShare, 29> shares{{{"reading", 3},
                                              {"samples", 4},
                                              {"sample_model", 8},
                                              {"delaunay", 24},
@@ -49,6 +49,8 @@ constexpr std::array<StageShare, 27> shares{{{"reading", 3},
                                              {"components", 2},
                                              {"trim", 1},
                                              {"points", 2},
+                                             {"fit", 12},
+                                             {"crossings", 4},
                                              {"attributes", 1},
                                              {"validate", 10},
                                              {"writing", 3}}};

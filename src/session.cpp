@@ -122,7 +122,8 @@ Result Session::label(std::span<const Vec3> outside_points, std::span<const Vec3
   EIGENCRUST_SOUND(surface, scene, labels, options);
   auto points = point_results(scene, surface, context);
   result.mesh = finish(std::move(surface), cloud, scene, context);
-  check(result.mesh, cloud, scene, {.self_intersections = options.smooth > 0, .threads = options.threads}, context);
+  check(result.mesh, cloud, scene, {.self_intersections = result.report.moved.has_value(), .threads = options.threads},
+        context);
 
   run.end();
   result.labels = std::move(labels).labels();

@@ -17,7 +17,7 @@ namespace eigencrust {
 const char* version();
 
 struct Result {
-  /// Vertices are input points bit for bit (unless smoothed), with all their attributes and
+  /// Vertices are input points bit for bit (unless moved, Options::surface and smooth), with all their attributes and
   /// `source_index`, the row in the input.
   TriangleMesh mesh;
   Report report;

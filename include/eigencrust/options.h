@@ -49,6 +49,12 @@ enum class GlobalSign : std::uint8_t {
   vote,     ///< long Voronoi cells beside the known outside decide; an outlier has none
   supernode ///< §3.2: the sign of the outside supernode's own component
 };
+/// Where the vertices of the mesh lie.
+enum class SurfaceKind : std::uint8_t {
+  automatic, ///< fitted where noise was measured, else samples
+  samples,   ///< at input points
+  fitted     ///< in the middle of the samples around. docs/decisions/0036
+};
 enum class Smoothing : std::uint8_t {
   laplacian, ///< §3.6: each vertex to the centroid of its neighbours; shrinks
   taubin     ///< alternating steps that keep the volume (Taubin 1995)
@@ -120,6 +126,8 @@ struct Options {
   bool manifold = true;
   ManifoldRule manifold_rule = ManifoldRule::cheapest;
   KeepComponents components;
+  /// Whether vertices move to the middle of the noise (not in the paper).
+  SurfaceKind surface = SurfaceKind::samples;
   /// Smoothing steps (§3.6); 0: none. Vertices then leave the samples.
   std::uint32_t smooth = 0;
   Smoothing smoothing = Smoothing::laplacian;
@@ -162,6 +170,7 @@ std::string to_string(SecondStage value);
 std::string to_string(Questionable value);
 std::string to_string(GlobalSign value);
 std::string to_string(ManifoldRule value);
+std::string to_string(SurfaceKind value);
 std::string to_string(Smoothing value);
 std::string to_string(Axis value);
 std::string to_string(SceneKind value);
@@ -175,6 +184,7 @@ Weights parse_weights(const std::string& text);
 Eigensolver parse_eigensolver(const std::string& text);
 SecondStage parse_second_stage(const std::string& text);
 Questionable parse_questionable(const std::string& text);
+SurfaceKind parse_surface_kind(const std::string& text);
 Smoothing parse_smoothing(const std::string& text);
 Axis parse_axis(const std::string& text);
 LengthChoice parse_length_choice(const std::string& what, const std::string& text); ///< auto, off, LENGTH or N%

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +40,12 @@ struct PartitionReport {
   SolverStatus status = SolverStatus::trivial;
 };
 
+/// How far the vertices of the mesh are from their input points.
+struct MovedReport {
+  std::uint64_t vertices = 0;          ///< that are elsewhere
+  double median = 0, q99 = 0, max = 0; ///< of the distances of these, in the unit of the input
+};
+
 struct Report {
   std::vector<std::string> command;
   std::vector<InputFile> files;
@@ -58,10 +65,12 @@ struct Report {
   Surroundings surroundings;            ///< what was scanned
   std::optional<Base> base;             ///< where Options::base was asked for
   double unsupported_area = 0;          ///< share of the surface's area that no samples bear out, before trimming
+  std::optional<MovedReport> moved;     ///< none: every vertex is an input point
   double seconds = 0;
   std::uint64_t peak_memory_bytes = 0;
   std::vector<std::string> warnings;
-  /// What the mesh was promised to be and is not (closed, manifold, oriented): a fault of the program.
+  /// What the mesh was promised to be and is not (closed, manifold, oriented, free of crossings): a fault of the
+  /// program.
   std::vector<std::string> broken_guarantees;
 };
 

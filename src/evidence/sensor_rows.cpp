@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "evidence/sensor_rows.h"
 
-#include <array>
 #include <cstdint>
-#include <functional>
-#include <string_view>
 #include <unordered_map>
 
+#include "geometry/place_hash.h"
+
 namespace eigencrust {
-namespace {
-
-struct PlaceHash {
-  std::size_t operator()(const Vec3& p) const {
-    const std::array key{p.x + 0.0, p.y + 0.0, p.z + 0.0}; // -0 is 0
-    return std::hash<std::string_view>()({reinterpret_cast<const char*>(key.data()), sizeof key});
-  }
-};
-
-} // namespace
 
 void set_sensor_rows(PointCloud& cloud, std::span<const Vec3> places) {
   std::unordered_map<Vec3, std::uint32_t, PlaceHash> numbers;

@@ -10,6 +10,8 @@
 
 #include <eigencrust/types.h>
 
+#include "parallel/threads.h"
+
 namespace eigencrust {
 
 /// Binary tree of boxes, split at the median along the longest axis. Queries only read.
@@ -26,19 +28,19 @@ class BoxTree {
 
   BoxTree() = default;
   /// \param boxes finite, at least one
-  explicit BoxTree(std::span<const Box3> boxes);
+  BoxTree(std::span<const Box3> boxes, const Threads& threads);
 
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
   /// Item numbers in the order of the leaves.
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
 
-  /// visit(item) for every item whose box, as given to the constructor, may overlap `box` (touching
+  /// visit(place) for every place in order() of items whose box, as given, may overlap `box` (touching
   /// counts): the items of all leaves that do. It ends early where visit says false. \return did it not?
   template <class Visit>
   bool overlapping_leaves(const Box3& box, Visit&& visit) const {
     std::array<std::uint32_t, max_depth> stack;
     std::size_t top = 0;
-    stack[top++] = 0;
+    if (!nodes_.empty()) stack[top++] = 0;
     while (top > 0) {
       const std::uint32_t i = stack[--top];
       const Node& node = nodes_[i];
@@ -49,18 +51,59 @@ class BoxTree {
         continue;
       }
       for (std::uint32_t k = 0; k < node.count; ++k)
-        if (!visit(order_[node.first + k])) return false;
+        if (!visit(node.first + k)) return false;
     }
     return true;
   }
 
+  /// Two nodes of one level, or a node and itself.
+  using NodePair = std::array<std::uint32_t, 2>;
+  /// Parts of the work of finding all pairs of items that may overlap; as many for any number of threads.
+  [[nodiscard]] std::vector<NodePair> parts_of_join() const;
+  /// visit(a, b) for every two places in order(), a < b, of leaves that overlap and are below these nodes; over all
+  /// parts each pair is met once. One walk for all items of a leaf is much shorter than one for each.
+  template <class Visit>
+  void join(const NodePair& part, Visit&& visit) const {
+    const auto [a, b] = part;
+    const Node &p = nodes_[a], &q = nodes_[b];
+    if (a != b && !overlap(p.box, q.box)) return;
+    if (p.count > 0 && q.count > 0) {
+      for (std::uint32_t i = p.first; i < p.first + p.count; ++i)
+        for (std::uint32_t j = a == b ? i + 1 : q.first; j < q.first + q.count; ++j) visit(i, j);
+      return;
+    }
+    for_each_child_pair(part, [&](const NodePair& child) { join(child, visit); });
+  }
+
   static bool overlap(const Box3& a, const Box3& b) {
-    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y && a.min.z <= b.max.z &&
-           b.min.z <= a.max.z;
+    // Without branches: which of them fails first is anybody's guess.
+    const int x = (a.min.x <= b.max.x) & (b.min.x <= a.max.x), y = (a.min.y <= b.max.y) & (b.min.y <= a.max.y),
+              z = (a.min.z <= b.max.z) & (b.min.z <= a.max.z);
+    return (x & y & z) != 0;
   }
 
  private:
-  void build(std::span<const Box3> boxes, std::span<const Vec3> centres, std::uint32_t begin, std::uint32_t end);
+  class Builder;
+
+  template <class Visit>
+  void for_each_child_pair(const NodePair& pair, Visit&& visit) const {
+    const auto [a, b] = pair;
+    const Node &p = nodes_[a], &q = nodes_[b];
+    if (a == b) {
+      visit(NodePair{a + 1, a + 1});
+      visit(NodePair{a + 1, p.first});
+      visit(NodePair{p.first, p.first});
+    } else if (p.count > 0) {
+      visit(NodePair{a, b + 1});
+      visit(NodePair{a, q.first});
+    } else if (q.count > 0) {
+      visit(NodePair{a + 1, b});
+      visit(NodePair{p.first, b});
+    } else {
+      for (const std::uint32_t left : {a + 1, p.first})
+        for (const std::uint32_t right : {b + 1, q.first}) visit(NodePair{left, right});
+    }
+  }
 
   std::vector<Node> nodes_; ///< preorder; node 0 is the root
   std::vector<std::uint32_t> order_;

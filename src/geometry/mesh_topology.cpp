@@ -2,11 +2,13 @@
 #include "geometry/mesh_topology.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <string>
 
 #include <eigencrust/error.h>
 
+#include "geometry/place_hash.h"
 #include "parallel/compressed_rows.h"
 
 namespace eigencrust {
@@ -37,24 +39,20 @@ std::vector<std::uint32_t> along_rims(const TriangleMesh& mesh) {
 }
 
 std::vector<std::uint32_t> first_equal_vertex(std::span<const Vec3> vertices) {
-  struct Place {
-    Vec3 position;
-    std::uint32_t vertex;
-  };
-  std::vector<Place> sorted;
-  sorted.reserve(vertices.size());
+  // A table with open addressing, at most half full.
+  std::vector<std::uint32_t> slots(std::bit_ceil(2 * vertices.size() + 2), no_index);
+  const std::size_t mask = slots.size() - 1;
   std::vector<std::uint32_t> first(vertices.size());
-  std::iota(first.begin(), first.end(), 0u);
-  for (const std::uint32_t v : first)
-    if (vertices[v] == vertices[v]) sorted.push_back({vertices[v], v}); // NaN would break the order
-  std::sort(sorted.begin(), sorted.end(), [](const Place& a, const Place& b) {
-    if (a.position.x != b.position.x) return a.position.x < b.position.x;
-    if (a.position.y != b.position.y) return a.position.y < b.position.y;
-    if (a.position.z != b.position.z) return a.position.z < b.position.z;
-    return a.vertex < b.vertex;
-  });
-  for (std::size_t i = 1; i < sorted.size(); ++i)
-    if (sorted[i].position == sorted[i - 1].position) first[sorted[i].vertex] = first[sorted[i - 1].vertex];
+  for (std::uint32_t v = 0; v < first.size(); ++v) {
+    first[v] = v;
+    if (!(vertices[v] == vertices[v])) continue; // NaN equals nothing
+    std::size_t slot = PlaceHash{}(vertices[v]) & mask;
+    while (slots[slot] != no_index && vertices[slots[slot]] != vertices[v]) slot = (slot + 1) & mask;
+    if (slots[slot] == no_index)
+      slots[slot] = v;
+    else
+      first[v] = slots[slot];
+  }
   return first;
 }
 

@@ -5,9 +5,9 @@
 #include <CGAL/intersections.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <utility>
-
-#include "geometry/box_tree.h"
 
 namespace eigencrust {
 namespace {
@@ -18,10 +18,41 @@ using Corners = std::array<Point, 3>;
 
 Point to_cgal(const Vec3& p) { return {p.x, p.y, p.z}; }
 
-/// Are all points strictly on one and the same side of the plane of `plane`?
+Vec3 difference(const Point& p, const Point& q) { return {p.x() - q.x(), p.y() - q.y(), p.z() - q.z()}; }
+
+/// On which side of the plane through a lie points, where floating point can tell?
+class FilteredPlane {
+ public:
+  explicit FilteredPlane(const Corners& c)
+      : a_(c[0]), u_(difference(c[1], c[0])), v_(difference(c[2], c[0])), normal_(cross(u_, v_)) {
+    const auto larger = [](double p, double q) { return std::max(std::fabs(p), std::fabs(q)); };
+    size_ = {larger(u_.x, v_.x), larger(u_.y, v_.y), larger(u_.z, v_.z)};
+  }
+
+  /// 1 or -1; 0: not sure. Each of the six products of three differences has at most eight roundings of 2^-53.
+  [[nodiscard]] int side(const Point& p) const {
+    constexpr double roundings = 6e-15, tiny = 1e-280; // below it products might vanish
+    const Vec3 w = difference(p, a_);
+    const double most =
+        std::max(size_.x, std::fabs(w.x)) * std::max(size_.y, std::fabs(w.y)) * std::max(size_.z, std::fabs(w.z));
+    const double volume = dot(normal_, w);
+    if (!(most > tiny) || !(std::fabs(volume) > roundings * most)) return 0;
+    return volume > 0 ? 1 : -1;
+  }
+
+ private:
+  Point a_;
+  Vec3 u_, v_, normal_, size_;
+};
+
+/// Are all points strictly on one and the same side of the plane of `plane`? One normal does for all of them.
 template <class... Points>
 bool strictly_beside(const Corners& plane, const Points&... points) {
-  CGAL::Orientation sides[] = {CGAL::orientation(plane[0], plane[1], plane[2], points)...};
+  const FilteredPlane filter(plane);
+  const int sure[] = {filter.side(points)...};
+  if (std::none_of(std::begin(sure), std::end(sure), [](int s) { return s == 0; }))
+    return std::all_of(std::begin(sure), std::end(sure), [&](int s) { return s == sure[0]; });
+  const CGAL::Orientation sides[] = {CGAL::orientation(plane[0], plane[1], plane[2], points)...};
   return sides[0] != CGAL::COPLANAR &&
          std::all_of(std::begin(sides), std::end(sides), [&](CGAL::Orientation s) { return s == sides[0]; });
 }
@@ -59,6 +90,22 @@ int shared_first(Triangle& f, Triangle& g) {
   return shared;
 }
 
+bool intersect(std::span<const Vec3> vertices, Triangle f, Triangle g) {
+  const auto corners = [&](const Triangle& t) {
+    return Corners{to_cgal(vertices[t[0]]), to_cgal(vertices[t[1]]), to_cgal(vertices[t[2]])};
+  };
+  switch (shared_first(f, g)) {
+    case 0:
+      return meet_anywhere(corners(f), corners(g));
+    case 1:
+      return meet_beyond_vertex(corners(f), corners(g));
+    case 2:
+      return meet_beyond_edge(corners(f), corners(g));
+    default:
+      return true; // one triangle twice
+  }
+}
+
 std::vector<Box3> boxes_of(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
   std::vector<Box3> boxes(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
@@ -71,12 +118,13 @@ std::vector<Box3> boxes_of(std::span<const Vec3> vertices, std::span<const Trian
 class CrossingCounter {
  public:
   /// \param triangles none degenerate, at least one; outlive this
-  CrossingCounter(std::span<const Vec3> vertices, std::span<const Triangle> triangles, const CrossingLimits& limits)
+  CrossingCounter(std::span<const Vec3> vertices, std::span<const Triangle> triangles, const CrossingLimits& limits,
+                  const Threads& threads)
       : vertices_(vertices),
         triangles_(triangles),
         limits_(limits),
         boxes_(boxes_of(vertices, triangles)),
-        tree_(boxes_) {}
+        tree_(boxes_, threads) {}
 
   Crossings count(const Threads& threads) const {
     constexpr std::size_t block = 2048;
@@ -141,29 +189,15 @@ class CrossingCounter {
 
   Crossings look(std::uint32_t t, std::uint64_t most) const {
     Crossings found;
-    found.all = tree_.overlapping_leaves(boxes_[t], [&](std::uint32_t other) {
+    found.all = tree_.overlapping_leaves(boxes_[t], [&](std::uint32_t place) {
+      const std::uint32_t other = tree_.order()[place];
       if (found.looked == most) return false;
       ++found.looked;
-      found.pairs += other > t && BoxTree::overlap(boxes_[other], boxes_[t]) && meet(triangles_[t], triangles_[other]);
+      found.pairs += other > t && BoxTree::overlap(boxes_[other], boxes_[t]) &&
+                     intersect(vertices_, triangles_[t], triangles_[other]);
       return true;
     });
     return found;
-  }
-
-  [[nodiscard]] Corners corners(const Triangle& t) const {
-    return {to_cgal(vertices_[t[0]]), to_cgal(vertices_[t[1]]), to_cgal(vertices_[t[2]])};
-  }
-  [[nodiscard]] bool meet(Triangle f, Triangle g) const {
-    switch (shared_first(f, g)) {
-      case 0:
-        return meet_anywhere(corners(f), corners(g));
-      case 1:
-        return meet_beyond_vertex(corners(f), corners(g));
-      case 2:
-        return meet_beyond_edge(corners(f), corners(g));
-      default:
-        return true; // one triangle twice
-    }
   }
 
   std::span<const Vec3> vertices_;
@@ -175,13 +209,16 @@ class CrossingCounter {
 
 } // namespace
 
+bool is_degenerate(std::span<const Vec3> vertices, const Triangle& triangle) {
+  const auto& [a, b, c] = triangle;
+  return CGAL::collinear(to_cgal(vertices[a]), to_cgal(vertices[b]), to_cgal(vertices[c]));
+}
+
 std::vector<std::uint8_t> find_degenerate_triangles(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                                                     const Threads& threads) {
   std::vector<std::uint8_t> degenerate(triangles.size());
-  for_each_index(threads, triangles.size(), [&](std::size_t t) {
-    const auto& [a, b, c] = triangles[t];
-    degenerate[t] = CGAL::collinear(to_cgal(vertices[a]), to_cgal(vertices[b]), to_cgal(vertices[c])) ? 1 : 0;
-  });
+  for_each_index(threads, triangles.size(),
+                 [&](std::size_t t) { degenerate[t] = is_degenerate(vertices, triangles[t]) ? 1 : 0; });
   return degenerate;
 }
 
@@ -192,7 +229,102 @@ Crossings count_self_intersections(std::span<const Vec3> vertices, std::span<con
   sound.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
     if (degenerate[t] == 0) sound.push_back(triangles[t]);
-  return sound.empty() ? Crossings{} : CrossingCounter(vertices, sound, limits).count(threads);
+  return sound.empty() ? Crossings{} : CrossingCounter(vertices, sound, limits, threads).count(threads);
+}
+
+CrossingSearch::CrossingSearch(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                               std::span<const std::uint8_t> degenerate, const Threads& threads)
+    : vertices_(vertices), triangles_(triangles), degenerate_(degenerate) {
+  std::vector<std::uint32_t> sound;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    if (degenerate[t] == 0) sound.push_back(t);
+  if (sound.empty()) return;
+  std::vector<Box3> boxes(sound.size());
+  for_each_index(threads, boxes.size(), [&](std::size_t i) { boxes[i] = box_of(sound[i]); });
+  tree_ = BoxTree(boxes, threads);
+  number_.resize(sound.size());
+  boxes_.resize(sound.size());
+  for_each_index(threads, sound.size(), [&](std::size_t place) {
+    number_[place] = sound[tree_.order()[place]];
+    boxes_[place] = boxes[tree_.order()[place]];
+  });
+  parts_ = tree_.parts_of_join();
+}
+
+/// visit(part, f, g), f < g, for each pair once, on the thread of the part.
+template <class Visit>
+void CrossingSearch::for_all(const Threads& threads, Visit&& visit) const {
+  threads.run(parts_.size(), [&](std::size_t part) {
+    tree_.join(parts_[part], [&](std::uint32_t i, std::uint32_t j) {
+      if (!BoxTree::overlap(boxes_[i], boxes_[j])) return;
+      const std::uint32_t f = std::min(number_[i], number_[j]), g = std::max(number_[i], number_[j]);
+      if (intersect(vertices_, triangles_[f], triangles_[g])) visit(part, f, g);
+    });
+  });
+}
+
+std::uint64_t CrossingSearch::count(const Threads& threads) const {
+  std::vector<std::uint64_t> pairs(parts_.size(), 0);
+  for_all(threads, [&](std::size_t part, std::uint32_t, std::uint32_t) { ++pairs[part]; });
+  return std::accumulate(pairs.begin(), pairs.end(), std::uint64_t{0});
+}
+
+std::vector<CrossingSearch::Pair> CrossingSearch::all(const Threads& threads) const {
+  std::vector<std::vector<Pair>> pairs(parts_.size());
+  for_all(threads, [&](std::size_t part, std::uint32_t f, std::uint32_t g) { pairs[part].push_back({f, g}); });
+  std::vector<Pair> joined;
+  for (const auto& part : pairs) joined.insert(joined.end(), part.begin(), part.end());
+  return joined;
+}
+
+std::vector<CrossingSearch::Pair> CrossingSearch::of_changed(std::span<const std::uint32_t> changed,
+                                                             const Threads& threads) {
+  state_.resize(triangles_.size(), State::same);
+  for (const std::uint32_t t : changed_) state_[t] = State::changed;
+  for (const std::uint32_t t : changed) {
+    if (state_[t] == State::same) changed_.push_back(t);
+    state_[t] = State::asked;
+  }
+  // What moved is in a tree of its own; it counts no more where it was.
+  std::vector<std::uint32_t> number;
+  std::vector<Box3> boxes;
+  for (const std::uint32_t t : changed_) {
+    if (degenerate_[t]) continue;
+    number.push_back(t);
+    boxes.push_back(box_of(t));
+  }
+  const BoxTree moved = boxes.empty() ? BoxTree() : BoxTree(boxes, threads);
+  constexpr std::size_t block = 256;
+  std::vector<std::vector<Pair>> pairs((changed.size() + block - 1) / block);
+  for_blocks(threads, changed.size(), block, [&](std::size_t begin, std::size_t end, std::size_t b) {
+    for (const std::uint32_t f : changed.subspan(begin, end - begin)) {
+      if (degenerate_[f]) continue;
+      const Box3 box = box_of(f);
+      const auto look = [&](std::uint32_t g, const Box3& other) {
+        if (BoxTree::overlap(box, other) && intersect(vertices_, triangles_[f], triangles_[g]))
+          pairs[b].push_back({f, g});
+      };
+      if (!boxes_.empty())
+        tree_.overlapping_leaves(box, [&](std::uint32_t place) {
+          if (state_[number_[place]] == State::same) look(number_[place], boxes_[place]);
+          return true;
+        });
+      moved.overlapping_leaves(box, [&](std::uint32_t place) {
+        const std::uint32_t item = moved.order()[place], g = number[item];
+        if (state_[g] == State::changed || f < g) look(g, boxes[item]);
+        return true;
+      });
+    }
+  });
+  std::vector<Pair> joined;
+  for (const auto& part : pairs) joined.insert(joined.end(), part.begin(), part.end());
+  return joined;
+}
+
+Box3 CrossingSearch::box_of(std::uint32_t t) const {
+  Box3 box;
+  for (const std::uint32_t v : triangles_[t]) box.add(vertices_[v]);
+  return box;
 }
 
 } // namespace eigencrust

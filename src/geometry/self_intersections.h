@@ -3,18 +3,22 @@
 /// Which triangles of a soup run through each other, decided exactly.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <eigencrust/types.h>
 
+#include "geometry/box_tree.h"
 #include "geometry/mesh_topology.h"
 #include "parallel/threads.h"
 
 namespace eigencrust {
 
-/// For each triangle 1 when two of its vertices coincide or all three are collinear (exact), else 0.
+/// Do two vertices of the triangle coincide, or are all three collinear (exact)?
+bool is_degenerate(std::span<const Vec3> vertices, const Triangle& triangle);
+/// For each triangle 1 when it is degenerate, else 0.
 std::vector<std::uint8_t> find_degenerate_triangles(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                                                     const Threads& threads);
 
@@ -39,5 +43,42 @@ struct Crossings {
 Crossings count_self_intersections(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                                    std::span<const std::uint8_t> degenerate, const Threads& threads,
                                    const CrossingLimits& limits = {});
+/// Finds pairs of triangles that have a point in common other than a shared vertex or a point of a shared edge, by
+/// exact predicates in any soup; and finds them again and again while a few vertices move: only what moved is looked at
+/// then.
+class CrossingSearch {
+ public:
+  using Pair = std::array<std::uint32_t, 2>;
+
+  /// Of what is given views are kept.
+  /// \param vertices finite; equal coordinates must have the same number where triangles use them
+  /// \param degenerate triangles marked 1 are left out: they have no inside to speak of
+  CrossingSearch(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                 std::span<const std::uint8_t> degenerate, const Threads& threads);
+
+  /// As long as nothing has moved. The same order for any number of threads.
+  [[nodiscard]] std::uint64_t count(const Threads& threads) const;
+  [[nodiscard]] std::vector<Pair> all(const Threads& threads) const;
+  /// Those of which one is of these triangles. \param changed increasing; all triangles whose vertices have moved since
+  ///        the search was made are among them or were given before
+  std::vector<Pair> of_changed(std::span<const std::uint32_t> changed, const Threads& threads);
+
+ private:
+  enum class State : std::uint8_t { same, changed, asked };
+
+  template <class Visit>
+  void for_all(const Threads& threads, Visit&& visit) const;
+  [[nodiscard]] Box3 box_of(std::uint32_t t) const;
+
+  std::span<const Vec3> vertices_;
+  std::span<const Triangle> triangles_;
+  std::span<const std::uint8_t> degenerate_;
+  std::vector<std::uint32_t> number_; ///< of triangles, in the order of the tree's leaves
+  std::vector<Box3> boxes_;           ///< of those
+  BoxTree tree_;
+  std::vector<BoxTree::NodePair> parts_;
+  std::vector<State> state_; ///< of each triangle; empty: nothing has moved
+  std::vector<std::uint32_t> changed_;
+};
 
 } // namespace eigencrust

@@ -94,7 +94,7 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh) : impl_(std::make_unique<Im
       boxes[t].add(mesh.vertices[v]);
     }
   }
-  impl_->tree = BoxTree(boxes);
+  impl_->tree = BoxTree(boxes, Threads(1));
   impl_->corners.reserve(boxes.size());
   for (const std::uint32_t t : impl_->tree.order()) {
     const auto& v = mesh.triangles[t];

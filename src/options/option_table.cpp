@@ -79,7 +79,7 @@ std::string facade_text(const Options& o) {
   return o.detect_facade ? "auto" : "off";
 }
 
-constexpr std::array<OptionEntry, 26> table{{
+constexpr std::array<OptionEntry, 27> table{{
     {"preset", Kind::choice, Group::method, "robust|paper",
      "robust: the measured best; paper: Kolluri, Shewchuk, O'Brien 2004 to the letter",
      [](Options& o, const std::string& text) { o = Options::of(parse_preset(text)); },
@@ -147,6 +147,11 @@ constexpr std::array<OptionEntry, 26> table{{
      "Leave out triangles that the samples do not bear out: the mesh is then open",
      [](Options& o, const std::string& text) { o.trim = parse_flag(text); },
      [](const Options& o) { return flag_text(o.trim); }},
+    {"surface", Kind::choice, Group::smoothing, "auto|samples|fitted",
+     "Vertices: samples (input points), fitted (moved to the middle of the noise), auto (fitted where noise was "
+     "measured)",
+     [](Options& o, const std::string& text) { o.surface = parse_surface_kind(text); },
+     [](const Options& o) { return to_string(o.surface); }},
     {"smooth", Kind::count, Group::smoothing, "N", "Smoothing steps; vertices then leave the samples",
      [](Options& o, const std::string& text) { o.smooth = parse_count("number of steps", text); },
      [](const Options& o) { return std::to_string(o.smooth); }},

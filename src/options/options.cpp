@@ -32,6 +32,8 @@ constexpr Names<Questionable, 3> questionables{
     {{Questionable::before, "before"}, {Questionable::after, "after"}, {Questionable::never, "never"}}};
 constexpr Names<GlobalSign, 2> global_signs{{{GlobalSign::vote, "vote"}, {GlobalSign::supernode, "supernode"}}};
 constexpr Names<ManifoldRule, 2> manifold_rules{{{ManifoldRule::cheapest, "cheapest"}, {ManifoldRule::paper, "paper"}}};
+constexpr Names<SurfaceKind, 3> surface_kinds{
+    {{SurfaceKind::automatic, "auto"}, {SurfaceKind::samples, "samples"}, {SurfaceKind::fitted, "fitted"}}};
 constexpr Names<Smoothing, 2> smoothings{{{Smoothing::laplacian, "laplacian"}, {Smoothing::taubin, "taubin"}}};
 constexpr Names<Axis, 6> axes{{{Axis::plus_x, "+x"},
                                {Axis::minus_x, "-x"},
@@ -92,6 +94,7 @@ std::string to_string(SecondStage value) { return name_of(second_stages, value);
 std::string to_string(Questionable value) { return name_of(questionables, value); }
 std::string to_string(GlobalSign value) { return name_of(global_signs, value); }
 std::string to_string(ManifoldRule value) { return name_of(manifold_rules, value); }
+std::string to_string(SurfaceKind value) { return name_of(surface_kinds, value); }
 std::string to_string(Smoothing value) { return name_of(smoothings, value); }
 std::string to_string(SceneKind value) { return name_of(scene_kinds, value); }
 std::string to_string(Axis value) { return name_of(axes, value); }
@@ -132,6 +135,7 @@ SecondStage parse_second_stage(const std::string& text) { return parse(second_st
 Questionable parse_questionable(const std::string& text) {
   return parse(questionables, "time for questionable poles", text);
 }
+SurfaceKind parse_surface_kind(const std::string& text) { return parse(surface_kinds, "kind of surface", text); }
 Smoothing parse_smoothing(const std::string& text) { return parse(smoothings, "smoothing method", text); }
 Axis parse_axis(const std::string& text) { return parse(axes, "axis", text); }
 

@@ -61,11 +61,11 @@ class Vertices {
 /// The plausible part of the surface, for samples that are not on it.
 class Target {
  public:
-  Target(const Surface& surface, const Vertices& vertices) : surface_(surface) {
+  template <class IsPlausible>
+  Target(const Surface& surface, const IsPlausible& is_plausible) : surface_(surface) {
     TriangleMesh plausible;
     for (const auto& triangle : surface.mesh.triangles)
-      if (std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) { return vertices.is_plausible(v); }))
-        plausible.triangles.push_back(triangle);
+      if (std::all_of(triangle.begin(), triangle.end(), is_plausible)) plausible.triangles.push_back(triangle);
     if (plausible.triangles.empty()) return;
     triangles_ = plausible.triangles;
     plausible.vertices = surface.mesh.vertices;
@@ -93,6 +93,17 @@ class Target {
   std::optional<TriangleTree> tree_;
 };
 
+/// What is left of the samples beside the surface through their middle says better how noisy they are than what was
+/// measured before there was one: so many times as noisy, at least once.
+double noise_scale(std::span<const Target::Found> nearest, std::span<const float> noise) {
+  constexpr double median_of_normal = 0.6745; // of the absolute value, in deviations
+  std::vector<double> deviations;
+  for (const Target::Found& found : nearest)
+    if (found.distance < std::numeric_limits<double>::infinity() && noise[found.vertex] > 0)
+      deviations.push_back(found.distance / static_cast<double>(noise[found.vertex]));
+  return deviations.empty() ? 1 : std::max(1.0, median(deviations) / median_of_normal);
+}
+
 } // namespace
 
 Classification classify_samples(const Tetrahedralization& t, const Surface& surface, const SampleModel& model,
@@ -103,7 +114,7 @@ Classification classify_samples(const Tetrahedralization& t, const Surface& surf
   result.place = IndexedArray<SampleIndex, std::array<std::uint32_t, 3>>(t.sample_count);
   if (surface.mesh.triangles.empty()) return result;
   const Vertices vertices(surface, model, threads);
-  const Target target(surface, vertices);
+  const Target target(surface, [&](std::uint32_t v) { return vertices.is_plausible(v); });
   IndexedArray<SampleIndex, std::uint32_t> vertex_of(t.sample_count, no_index);
   for (std::uint32_t v = 0; v < surface.sample_of.size(); ++v) vertex_of[surface.sample_of[v]] = v;
   const auto classify = [&](std::size_t i) {
@@ -126,6 +137,32 @@ Classification classify_samples(const Tetrahedralization& t, const Surface& surf
   };
   for_each_index(threads, t.sample_count, classify, costly_block);
   return result;
+}
+
+void classify_by_distance(const Tetrahedralization& t, const Surface& fitted, const SampleModel& model,
+                          std::span<const float> noise, Classification& classes, const Threads& threads) {
+  const std::size_t n = fitted.sample_of.size();
+  std::vector<std::uint8_t> plausible(n);
+  for (std::uint32_t v = 0; v < n; ++v) plausible[v] = classes.place[fitted.sample_of[v]] == std::array{v, v, v};
+  const Target target(fitted, [&](std::uint32_t v) { return plausible[v] != 0; });
+  std::vector<Target::Found> nearest(t.sample_count);
+  for_each_index(
+      threads, nearest.size(), [&](std::size_t i) { nearest[i] = target.nearest(t.positions.raw()[i]); }, costly_block);
+  const double scale = noise_scale(nearest, noise);
+  const auto classify = [&](std::size_t i) {
+    const SampleIndex s{static_cast<std::uint32_t>(i)};
+    const Target::Found& found = nearest[i];
+    if (!(found.distance < std::numeric_limits<double>::infinity())) return;
+    // Thin parts read as free of noise; `noise` knows better.
+    const double tolerance = std::max(model.tolerance(fitted.sample_of[found.vertex]),
+                                      scale * static_cast<double>(noise_bound * noise[found.vertex]));
+    const double ratio = found.distance / tolerance;
+    classes.confidence[s] = static_cast<float>(1 / (1 + ratio * ratio));
+    classes.inlier[s] = 2 * classes.confidence[s] >= 1;
+    const auto& place = classes.place[s];
+    if (place[0] != place[1]) classes.place[s] = found.triangle;
+  };
+  for_each_index(threads, t.sample_count, classify);
 }
 
 } // namespace eigencrust

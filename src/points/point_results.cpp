@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "fit/fit.h"
 #include "points/orient.h"
 
 namespace eigencrust {
@@ -10,9 +11,20 @@ namespace {
 
 PointResults results_by_row(const Scene& scene, const Surface& surface, const Threads& threads) {
   const Tetrahedralization& t = scene.tetrahedralization;
-  const SampleLengths& grid = scene.measures.grid;
-  const Classification classes = classify_samples(t, surface, scene.measures.model, threads);
-  const IndexedArray<SampleIndex, Vec3> normals = orient_samples(t, surface, classes, grid, threads);
+  const SampleModel& model = scene.measures.model;
+  Classification classes = classify_samples(t, surface, model, threads);
+  const SurfaceFans fans(surface.mesh);
+  const std::vector<float> noise = noise_to_fit(surface, fans, model, SurfaceKind::automatic, threads);
+  IndexedArray<SampleIndex, Vec3> normals;
+  if (noise.empty()) {
+    normals = orient_samples(t, surface, classes, scene.measures.grid, threads);
+  } else {
+    Surface fitted = surface;
+    const auto samples = std::span(t.positions.raw()).first(t.sample_count);
+    fitted.mesh.vertices = fitted_vertices(surface, fans, samples, model, noise, threads);
+    classify_by_distance(t, fitted, model, noise, classes, threads);
+    normals = orient_samples(t, fitted, classes, {}, threads); // it needs no smoothing
+  }
   const std::vector<SampleIndex>& sample = scene.sample_of_row;
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   PointResults result;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "evidence/evidence.h"
+#include "fit/uncross.h"
 #include "numerics/quantile.h"
 #include "points/point_results.h"
 #include "repair/generators.h"
@@ -50,6 +51,7 @@ std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Report
     broken.emplace_back("closed");
   if (options.manifold && !mesh.manifold()) broken.emplace_back("manifold");
   if (options.manifold && !mesh.oriented()) broken.emplace_back("consistently oriented");
+  if (mesh.self_intersections > 0 && !options.base) broken.emplace_back("free of crossings");
   const bool rooms = report.surroundings.kind == SceneKind::interior;
   if (mesh.closed() && mesh.oriented() && (rooms ? mesh.volume > 0 : mesh.volume < 0))
     broken.emplace_back(rooms ? "oriented to the scanners" : "outward oriented");
@@ -218,6 +220,11 @@ void describe(const TurnedOver& turned, Run& run) {
 
 void describe(const PointResults& results, Run& run) {
   run.count("inliers", static_cast<double>(std::count(results.inlier.begin(), results.inlier.end(), 1)));
+}
+
+void describe(const UncrossCounts& counts, Run& run) {
+  run.count("pairs", static_cast<double>(counts.crossings));
+  run.count("eased", static_cast<double>(counts.eased));
 }
 
 void describe(const MeshSummary& mesh, Run& run) {

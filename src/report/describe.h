@@ -23,6 +23,7 @@ struct Contradictions;
 struct KnownBeforehand;
 struct MinimumLabels;
 struct PointResults;
+struct UncrossCounts;
 
 void describe(const Samples& samples, Run& run);
 void describe(const SampleMeasures& measures, Run& run);
@@ -42,6 +43,7 @@ void describe(const SamplesApart& samples, Run& run);
 void describe(const UnsupportedTriangles& unsupported, Run& run);
 void describe(const TurnedOver& turned, Run& run);
 void describe(const PointResults& results, Run& run);
+void describe(const UncrossCounts& counts, Run& run);
 void describe(const MeshSummary& mesh, Run& run);
 
 } // namespace eigencrust

@@ -62,6 +62,7 @@ Json json_of(const Options& o) {
           {"manifold", o.manifold},
           {"manifold_rule", to_string(o.manifold_rule)},
           {"components", to_string(o.components)},
+          {"surface", to_string(o.surface)},
           {"smooth", o.smooth},
           {"smoothing", to_string(o.smoothing)},
           {"outside_points", std::move(points_out)},
@@ -103,6 +104,11 @@ Json json_of(const PartitionReport& p) {
 Json json_of(const std::optional<OneSided>& scan) {
   if (!scan) return {};
   return {{"direction", json_of(scan->direction)}, {"widest_angle", scan->widest_angle * 180 / std::numbers::pi}};
+}
+
+Json json_of(const std::optional<MovedReport>& moved) {
+  if (!moved) return {};
+  return {{"vertices", moved->vertices}, {"median", moved->median}, {"q99", moved->q99}, {"max", moved->max}};
 }
 
 Json json_of(const std::optional<Base>& base) {
@@ -163,6 +169,7 @@ std::string to_json(const Report& report) {
       {"one_sided", json_of(report.one_sided)},
       {"base", json_of(report.base)},
       {"unsupported_area", report.unsupported_area},
+      {"moved", json_of(report.moved)},
       {"seconds", report.seconds},
       {"peak_memory_bytes", report.peak_memory_bytes},
       {"warnings", report.warnings},

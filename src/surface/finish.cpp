@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <optional>
+#include <utility>
 
+#include "fit/fit.h"
+#include "fit/uncross.h"
 #include "geometry/exact_difference.h"
+#include "numerics/quantile.h"
 #include "surface/base.h"
 #include "surface/surface.h"
 #include "surface/turned_over.h"
@@ -19,18 +24,56 @@ bool is_exact_translation(const Tetrahedralization& t, const PointCloud& cloud, 
   return rounded == 0;
 }
 
-/// Smoothes, and puts the vertices into input coordinates: where these round, neighbours could meet.
-TurnedOver smooth_in_place(Surface& surface, const Tetrahedralization& t, const PointCloud& cloud,
-                           const Options& options, const Threads& threads) {
-  smooth(surface.mesh, options.smoothing, options.smooth, threads);
-  std::vector<Vec3> rows;
-  rows.reserve(surface.sample_of.size());
-  for (const SampleIndex s : surface.sample_of) rows.push_back(cloud.points[t.source[s]]);
+/// Moves vertices to the middle of the noise. \return whether any moved
+bool fit(Surface& surface, const SurfaceFans& fans, const Scene& scene, SurfaceKind kind, const Threads& threads) {
+  const Tetrahedralization& t = scene.tetrahedralization;
+  const SampleModel& model = scene.measures.model;
+  const std::vector<float> noise = noise_to_fit(surface, fans, model, kind, threads);
+  if (noise.empty()) return false;
+  const auto samples = std::span(t.positions.raw()).first(t.sample_count);
+  surface.mesh.vertices = fitted_vertices(surface, fans, samples, model, noise, threads);
+  return true;
+}
+
+/// How far the vertices are from the input points that they were.
+MovedReport distances_moved(std::span<const Vec3> before, std::span<const Vec3> after) {
+  std::vector<double> distances;
+  for (std::size_t v = 0; v < before.size(); ++v)
+    if (before[v] != after[v]) distances.push_back(distance(before[v], after[v]));
+  if (distances.empty()) return {};
+  return {distances.size(), median(distances), quantile(distances, 0.99),
+          *std::max_element(distances.begin(), distances.end())};
+}
+
+/// No crossings, and no piece that turned over: pieces that did are back at their rows, and what crosses these moves
+/// on.
+UncrossCounts settle_moved(const std::vector<Vec3>& rows, const SampleModel& model, const SurfaceFans& fans,
+                           TriangleMesh& mesh, const Threads& threads) {
+  UncrossCounts counts = uncross(rows, model.typical_spacing, fans, mesh, threads);
+  for (std::uint64_t pieces = 0;;) {
+    const std::uint64_t before = std::exchange(pieces, take_back_turned(rows, fans, mesh, threads).pieces);
+    if (pieces <= before) return counts; // those that were taken back are found again
+    const UncrossCounts again = uncross(rows, model.typical_spacing, fans, mesh, threads);
+    counts.crossings += again.crossings;
+    counts.eased += again.eased;
+    counts.left = again.left;
+  }
+}
+
+std::vector<Vec3> input_points(std::span<const SampleIndex> sample_of, const Tetrahedralization& t,
+                               const PointCloud& cloud) {
+  std::vector<Vec3> points;
+  points.reserve(sample_of.size());
+  for (const SampleIndex s : sample_of) points.push_back(cloud.points[t.source[s]]);
+  return points;
+}
+
+/// Puts the vertices into input coordinates, those that were not moved bit for bit.
+void to_input_coordinates(Surface& surface, const Tetrahedralization& t, const std::vector<Vec3>& rows) {
   for (std::size_t v = 0; v < rows.size(); ++v) {
     Vec3& place = surface.mesh.vertices[v];
     place = place == t.positions[surface.sample_of[v]] ? rows[v] : place + t.origin;
   }
-  return take_back_turned(rows, surface.mesh, threads);
 }
 
 /// \param moved are the vertices in input coordinates already?
@@ -73,17 +116,45 @@ TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, co
   return mesh;
 }
 
+/// Fits and smoothes, and sees that nothing crosses. \return whether the vertices, in input coordinates then, moved
+bool move_vertices(Surface& surface, const PointCloud& cloud, const Scene& scene, const Context& context) {
+  const auto& [options, run, threads] = context;
+  run.report().moved.reset();
+  if (options.surface == SurfaceKind::samples && options.smooth == 0) return false;
+  const Tetrahedralization& t = scene.tetrahedralization;
+  const std::vector<Vec3> rows = input_points(surface.sample_of, t, cloud);
+  std::optional<SurfaceFans> fans;
+  bool fitted = false;
+  if (options.surface != SurfaceKind::samples)
+    run.stage("fit", [&] {
+      fans.emplace(surface.mesh);
+      fitted = fit(surface, *fans, scene, options.surface, threads);
+    });
+  if (!fitted && options.smooth == 0) return false;
+  if (options.smooth > 0)
+    run.stage("smoothing", [&] {
+      if (!fans) fans.emplace(surface.mesh);
+      smooth(surface.mesh, options.smoothing, options.smooth, threads);
+      to_input_coordinates(surface, t, rows); // where this rounds, neighbours could meet
+      return take_back_turned(rows, *fans, surface.mesh, threads);
+    });
+  else
+    to_input_coordinates(surface, t, rows);
+  run.stage("crossings", [&] { return settle_moved(rows, scene.measures.model, *fans, surface.mesh, threads); });
+  run.report().moved = distances_moved(rows, surface.mesh.vertices);
+  return true;
+}
+
 } // namespace
 
 TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene, const Context& context) {
   const auto& [options, run, threads] = context;
-  if (options.smooth > 0)
-    run.stage("smoothing", [&] { return smooth_in_place(surface, scene.tetrahedralization, cloud, options, threads); });
+  const bool moved = move_vertices(surface, cloud, scene, context);
   std::optional<Base>& base = run.report().base;
   base.reset();
-  if (options.base) base = put_on_base(surface, scene, options.smooth > 0, run.report().surroundings.front);
+  if (options.base) base = put_on_base(surface, scene, moved, run.report().surroundings.front);
   return run.stage("attributes", [&] {
-    return finish_mesh(surface, scene.tetrahedralization, cloud, options.smooth > 0, base ? base->vertices : 0);
+    return finish_mesh(surface, scene.tetrahedralization, cloud, moved, base ? base->vertices : 0);
   });
 }
 
@@ -92,7 +163,7 @@ void check(const TriangleMesh& mesh, const PointCloud& cloud, const Scene& scene
   const auto& [options, run, threads] = context;
   run.stage("validate", [&] {
     // Faces of one Delaunay tetrahedralization do not cross, unless they were moved or rounded (docs/guarantees.md).
-    const bool cannot_cross = checks.self_intersections && options.smooth == 0 && !options.base &&
+    const bool cannot_cross = checks.self_intersections && !run.report().moved && !options.base &&
                               is_exact_translation(scene.tetrahedralization, cloud, threads);
     ValidateOptions needed = checks;
     needed.self_intersections = checks.self_intersections && !cannot_cross;

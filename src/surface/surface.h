@@ -20,7 +20,7 @@ struct SamplesApart {
 Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence& evidence,
                      const TetrahedronLabels& labels, const Context& context);
 
-/// §3.6. The stages smoothing and attributes.
+/// The vertices where the options want them (§3.6). The stages fit, smoothing, attributes and crossings.
 TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene, const Context& context);
 
 /// The stage validate: what the mesh is, and whether it is what the options promise.

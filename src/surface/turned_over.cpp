@@ -28,7 +28,8 @@ bool is_spoilt(const Piece& piece) {
 }
 
 std::vector<Piece> measure_pieces(const std::vector<Vec3>& before, const TriangleMesh& mesh,
-                                  std::span<const std::uint32_t> piece_of, std::span<const Side> sides) {
+                                  std::span<const std::uint32_t> piece_of, const SurfaceFans& fans,
+                                  std::span<const std::uint8_t> at_rim) {
   std::vector<Piece> pieces;
   for (std::size_t i = 0; i < piece_of.size(); ++i) {
     const Triangle& t = mesh.triangles[i];
@@ -47,19 +48,17 @@ std::vector<Piece> measure_pieces(const std::vector<Vec3>& before, const Triangl
   for (std::uint32_t v = 0; v < first.size(); ++v)
     if (first[v] != v) doubled[v] = doubled[first[v]] = 1;
   for (std::size_t i = 0; i < piece_of.size(); ++i)
-    for (const std::uint32_t v : mesh.triangles[i])
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = mesh.triangles[i][k];
       if (doubled[v] && mesh.vertices[v] != before[v]) pieces[piece_of[i]].touches = true;
-  for_each_edge(sides, [&](std::span<const Side> edge) {
-    if (edge.size() == 1) pieces[piece_of[edge[0].triangle()]].closed = false;
-  });
+      if (at_rim[v] && fans.is_open(v, mesh.triangles[i][(k + 1) % 3])) pieces[piece_of[i]].closed = false;
+    }
   return pieces;
 }
 
 /// Has a coarse shell shrunk so far that less is within it than within its cavities? Of open meshes nothing is said.
-bool whole_turned(const std::vector<Vec3>& before, const TriangleMesh& mesh, std::span<const Side> sides) {
-  bool open = false;
-  for_each_edge(sides, [&](std::span<const Side> edge) { open = open || edge.size() == 1; });
-  if (open) return false;
+bool whole_turned(const std::vector<Vec3>& before, const TriangleMesh& mesh, std::span<const std::uint8_t> at_rim) {
+  if (std::find(at_rim.begin(), at_rim.end(), 1) != at_rim.end()) return false;
   SignedVolume then, now;
   for (const Triangle& t : mesh.triangles) {
     add_to(then, before, t, before[mesh.triangles[0][0]]);
@@ -70,13 +69,14 @@ bool whole_turned(const std::vector<Vec3>& before, const TriangleMesh& mesh, std
 
 } // namespace
 
-TurnedOver take_back_turned(const std::vector<Vec3>& before, TriangleMesh& mesh, const Threads& threads) {
+TurnedOver take_back_turned(const std::vector<Vec3>& before, const SurfaceFans& fans, TriangleMesh& mesh,
+                            const Threads& threads) {
   const std::vector<std::uint32_t> piece_of = triangle_components(mesh, threads.size());
-  const std::vector<Side> sides = sorted_sides(mesh.triangles, mesh.vertices.size(), threads);
+  const std::vector<std::uint8_t> at_rim = fans.rim_vertices(threads);
   std::vector<std::uint8_t> taken_back;
   for (bool changed = true; changed;) { // what goes back may come to lie on what does not
     changed = false;
-    const std::vector<Piece> pieces = measure_pieces(before, mesh, piece_of, sides);
+    const std::vector<Piece> pieces = measure_pieces(before, mesh, piece_of, fans, at_rim);
     taken_back.resize(pieces.size(), 0);
     for (std::size_t i = 0; i < piece_of.size(); ++i) {
       const std::uint32_t p = piece_of[i];
@@ -85,7 +85,7 @@ TurnedOver take_back_turned(const std::vector<Vec3>& before, TriangleMesh& mesh,
       for (const std::uint32_t v : mesh.triangles[i]) mesh.vertices[v] = before[v];
     }
   }
-  if (whole_turned(before, mesh, sides)) {
+  if (whole_turned(before, mesh, at_rim)) {
     mesh.vertices = before;
     return {taken_back.size()};
   }

@@ -8,6 +8,7 @@
 #include <eigencrust/types.h>
 
 #include "parallel/threads.h"
+#include "surface/fans.h"
 
 namespace eigencrust {
 
@@ -19,6 +20,8 @@ struct TurnedOver {
 /// Closed pieces whose volume has changed its sign, or vanished beside rounding, and pieces with vertices that came to
 /// lie on one another get their old places back.
 /// \param before places of the vertices when the pieces were right
-TurnedOver take_back_turned(const std::vector<Vec3>& before, TriangleMesh& mesh, const Threads& threads);
+/// \param fans of `mesh`
+TurnedOver take_back_turned(const std::vector<Vec3>& before, const SurfaceFans& fans, TriangleMesh& mesh,
+                            const Threads& threads);
 
 } // namespace eigencrust

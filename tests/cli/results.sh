@@ -121,6 +121,45 @@ test_report_holds_what_is_promised() {
   equal version "eigencrust $(value report.json /version)" "$("$program" --version)"
 }
 
+# The samples of a sphere, 0.08 apart, with normal noise of 0.04.
+noisy_sphere() {
+  sphere 2000 | awk 'BEGIN { srand(3) }
+    function normal() { return sqrt(-2 * log(1 - rand())) * cos(6.283185307 * rand()) }
+    { printf "%.9g %.9g %.9g\n", $1 + 0.04 * normal(), $2 + 0.04 * normal(), $3 + 0.04 * normal() }'
+}
+
+# error OBJ: mean distance of its vertices from the unit sphere.
+error_of() {
+  awk '$1 == "v" { d = sqrt($2 * $2 + $3 * $3 + $4 * $4) - 1; sum += d < 0 ? -d : d; ++n } END { print sum / n }' "$1"
+}
+
+test_noise_moves_vertices_and_that_is_told() {
+  noisy_sphere >cloud.xyz
+  expect 0 cloud.xyz -o fitted.obj --report report.json --surface auto
+  grep -qE 'vertices moved from their samples: median 0\.0[0-9]+, 99 % below 0\.[0-9]+' out || die "not told: $(cat out)"
+  equal surface "$(value report.json /options/surface)" auto
+  local vertices
+  vertices=$(value report.json /mesh/vertices)
+  equal "the vertices moved" "$(value report.json /moved/vertices)" "$vertices"
+  equal crossings "$(value report.json /mesh/self_intersections)" 0
+  expect 0 cloud.xyz -o samples.obj --report report.json
+  grep -q 'moved' out && die "told without reason"
+  equal moved "$(value report.json /moved)" null
+  equal vertices "$(value report.json /mesh/vertices)" "$vertices"
+  awk -v fitted="$(error_of fitted.obj)" -v samples="$(error_of samples.obj)" 'BEGIN { exit !(fitted < 0.3 * samples) }' ||
+    die "the error is $(error_of fitted.obj) and was $(error_of samples.obj)"
+}
+
+test_without_noise_vertices_are_the_samples() {
+  sphere 2000 >cloud.xyz
+  expect 0 cloud.xyz -o auto.ply --report report.json --surface auto
+  equal moved "$(value report.json /moved)" null
+  expect 0 cloud.xyz -o samples.ply --surface samples
+  same auto.ply samples.ply
+  expect 0 cloud.xyz -o fitted.ply --surface fitted
+  grep -q 'vertices moved' out || die "fitted moves nothing"
+}
+
 test_report_agrees_with_check() {
   { sphere 2000; sphere 500 0.3 5; } >cloud.xyz
   expect 0 cloud.xyz -o mesh.ply --report report.json --components all

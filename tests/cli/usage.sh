@@ -78,7 +78,7 @@ test_values_that_make_no_sense() {
   sphere 300 >cloud.xyz
   local options
   for options in "--preset none" "--grid-spacing -1" "--grid-spacing 0%" "--grid-spacing 1x" "--components 0" \
-    "--questionable later" "--second-stage third" "--eigensolver magic" "--smoothing none" "--smooth -1" \
+    "--questionable later" "--second-stage third" "--eigensolver magic" "--smoothing none" "--surface rough" "--smooth -1" \
     "--smooth 1001" "--tolerance 0" "--tolerance nan" "--max-steps 0" "--outside-point 1,2" \
     "--inside-point 1,2,three" "--inside-point 1,2,3,4" "--facade up" "--threads -1" "--threads 2000" \
     "--threads many" "--max-memory none" "--max-memory 0" "--max-memory 4X" "--max-memory -1G" "--progress loud" "--preset" "--sensor 1,2" "--sensor 1,2,inf" "--sensor-direction 0,0,0" \

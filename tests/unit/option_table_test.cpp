@@ -59,6 +59,7 @@ TEST(OptionTable, EveryOptionChangesWhatItIsNamedAfter) {
                                                                {"facade", "+z"},
                                                                {"base", "on"},
                                                                {"trim", "on"},
+                                                               {"surface", "fitted"},
                                                                {"smooth", "3"},
                                                                {"smoothing", "taubin"},
                                                                {"threads", "2"},

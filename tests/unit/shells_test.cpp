@@ -150,7 +150,7 @@ TEST(TurnedOver, OnlyWhatTurnedGoesBack) {
   const Threads threads(1);
   for (std::size_t v = 0; v < 6; ++v) mesh.vertices[v] = -0.5 * mesh.vertices[v]; // inside out
   for (std::size_t v = 6; v < 12; ++v) mesh.vertices[v] = 0.9 * mesh.vertices[v];
-  EXPECT_EQ(take_back_turned(before, mesh, threads).pieces, 1u);
+  EXPECT_EQ(take_back_turned(before, SurfaceFans(mesh), mesh, threads).pieces, 1u);
   EXPECT_EQ(mesh.vertices[0], before[0]);
   EXPECT_NE(mesh.vertices[7], before[7]);
 }
@@ -159,7 +159,7 @@ TEST(TurnedOver, WhatIsFlatGoesBackToo) {
   TriangleMesh mesh = octahedron({3, 4, 5}, 1);
   const std::vector<Vec3> before = mesh.vertices;
   for (Vec3& v : mesh.vertices) v.z = 5 + 1e-17 * v.z;
-  EXPECT_EQ(take_back_turned(before, mesh, Threads(1)).pieces, 1u);
+  EXPECT_EQ(take_back_turned(before, SurfaceFans(mesh), mesh, Threads(1)).pieces, 1u);
   EXPECT_EQ(mesh.vertices, before);
 }
 
@@ -170,7 +170,7 @@ TEST(TurnedOver, ACoarseShellThatShrinksBelowItsCavityGoesBack) {
   mesh.vertices.insert(mesh.vertices.end(), cavity.vertices.begin(), cavity.vertices.end());
   const std::vector<Vec3> before = mesh.vertices;
   for (std::size_t v = 0; v < 6; ++v) mesh.vertices[v] = 0.5 * mesh.vertices[v];
-  EXPECT_EQ(take_back_turned(before, mesh, Threads(1)).pieces, 2u);
+  EXPECT_EQ(take_back_turned(before, SurfaceFans(mesh), mesh, Threads(1)).pieces, 2u);
   EXPECT_EQ(mesh.vertices, before);
 }
 
@@ -179,7 +179,7 @@ TEST(TurnedOver, TheWallOfACavityMayShrink) {
   for (auto& t : mesh.triangles) std::swap(t[0], t[1]);
   const std::vector<Vec3> before = mesh.vertices;
   for (Vec3& v : mesh.vertices) v = 1e-6 * v;
-  EXPECT_EQ(take_back_turned(before, mesh, Threads(1)).pieces, 0u);
+  EXPECT_EQ(take_back_turned(before, SurfaceFans(mesh), mesh, Threads(1)).pieces, 0u);
   EXPECT_NE(mesh.vertices, before);
 }
 

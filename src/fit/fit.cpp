@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fit/place_fits.h"
+#include "geometry/mesh_topology.h"
+#include "geometry/nearest.h"
+#include "surface/fans.h"
+
+namespace eigencrust {
+namespace {
+
+// Noise below that share of the spacing cannot be told from curvature: clean statues read as 0.09 in places.
+constexpr float least_noise_in_spacings = 0.1f;
+constexpr double least_share_of_piece = 0.1;
+// Tips and edges read as free of noise, for they have no flat neighbourhood; they are about that many edges wide.
+constexpr int edges_around = 10;
+
+// Steps of smoothing before the first fit, and of the areas around that its normals are summed over.
+constexpr int smoothing_steps = 5;
+constexpr int normal_steps = 10;
+// The second fits start from the places and normals of the first, which may be coarse; a third takes off nothing any
+// more.
+constexpr std::array<FitEffort, 2> efforts{{{25, 3}, {50, 6}}};
+// In widths: fits of places farther away have no say in where a vertex goes.
+constexpr double blend_reach = 1;
+// In units of widths, squared: what is less than that about a fit is no misfit.
+constexpr double least_misfit = 1e-3;
+// Cosine: fits of one side.
+constexpr double same_side = 0.5;
+// Widths are in units of the noise, or of so many spacings where that is more: fewer samples make no fit.
+constexpr double least_unit_in_spacings = 0.7;
+// Nothing moves farther than the bound of the noise and so many spacings, which are those around or the typical ones of
+// the cloud, whichever is less: where samples are rare none of them is noise.
+constexpr double farthest_in_spacings = 1;
+
+std::vector<std::uint32_t> pieces_of(const Surface& surface) {
+  DisjointSets sets(surface.mesh.vertices.size());
+  for (const auto& [a, b, c] : surface.mesh.triangles) {
+    sets.unite(a, b);
+    sets.unite(b, c);
+  }
+  std::vector<std::uint32_t> piece(surface.mesh.vertices.size());
+  for (std::uint32_t v = 0; v < piece.size(); ++v) piece[v] = sets.find(v);
+  return piece;
+}
+
+/// Laplacian steps, in which vertices may come to lie on one another: nothing but a start. Rims stay.
+std::vector<Vec3> smoothed(std::vector<Vec3> vertices, const SurfaceFans& fans, const Threads& threads) {
+  std::vector<Vec3> next(vertices.size());
+  const std::vector<std::uint8_t> at_rim = fans.rim_vertices(threads);
+  for (int step = 0; step < smoothing_steps; ++step) {
+    for_each_index(threads, vertices.size(), [&](std::size_t v) {
+      next[v] = vertices[v];
+      if (at_rim[v]) return;
+      Vec3 sum;
+      for (const auto& wing : fans[v]) sum = sum + (vertices[wing.next] - vertices[v]);
+      next[v] = vertices[v] + (1 / static_cast<double>(fans[v].size())) * sum;
+    });
+    vertices.swap(next);
+  }
+  return vertices;
+}
+
+/// From the areas of the triangles around, which are summed over some edges: those of folds cancel.
+std::vector<Vec3> averaged_normals(std::span<const Vec3> vertices, const SurfaceFans& fans, const Threads& threads) {
+  std::vector<Vec3> area(vertices.size()), next(area.size());
+  for_each_index(threads, area.size(), [&](std::size_t v) {
+    for (const auto& wing : fans[v])
+      area[v] = area[v] + cross(vertices[wing.next] - vertices[v], vertices[wing.last] - vertices[v]);
+  });
+  for (int step = 0; step < normal_steps; ++step) {
+    for_each_index(threads, area.size(), [&](std::size_t v) {
+      next[v] = area[v];
+      for (const auto& wing : fans[v]) next[v] = next[v] + area[wing.next];
+      next[v] = (1 / static_cast<double>(1 + fans[v].size())) * next[v];
+    });
+    area.swap(next);
+  }
+  for (Vec3& n : area)
+    if (const double length = norm(n); length > 0) n = (1 / length) * n;
+  return area;
+}
+
+Vec3 limited(const Vec3& from, const Vec3& to, double farthest) {
+  const double length = distance(from, to);
+  return length > farthest ? from + (farthest / length) * (to - from) : to;
+}
+
+std::vector<float> noise_at_vertices(const Surface& surface, const SurfaceFans& fans, const SampleModel& model,
+                                     const Threads& threads) {
+  const std::size_t n = surface.mesh.vertices.size();
+  std::vector<float> noise(n, 0);
+  for_each_index(threads, n, [&](std::size_t v) {
+    const SampleIndex s = surface.sample_of[v];
+    if (model.noise[s] > least_noise_in_spacings * model.spacing[s]) noise[v] = model.noise[s];
+  });
+  const std::vector<std::uint32_t> piece = pieces_of(surface);
+  std::vector<std::uint32_t> all(n, 0), with_noise(n, 0);
+  for (std::size_t v = 0; v < n; ++v) {
+    ++all[piece[v]];
+    with_noise[piece[v]] += noise[v] > 0;
+  }
+  for (std::size_t v = 0; v < n; ++v)
+    if (static_cast<double>(with_noise[piece[v]]) < least_share_of_piece * static_cast<double>(all[piece[v]]))
+      noise[v] = 0;
+  std::vector<float> next(n);
+  for (int edge = 0; edge < edges_around; ++edge) {
+    for_each_index(threads, n, [&](std::size_t v) {
+      next[v] = noise[v];
+      if (noise[v] > 0) return;
+      for (const auto& wing : fans[v]) next[v] = std::max(next[v], noise[wing.next]);
+    });
+    noise.swap(next);
+  }
+  return noise;
+}
+
+/// The middle of the noise, from fits at places spread over the surface.
+class SurfaceFit {
+ public:
+  SurfaceFit(const Surface& surface, const SurfaceFans& fans, std::span<const Vec3> samples, const SampleModel& model,
+             std::span<const float> noise, const Threads& threads)
+      : surface_(surface),
+        samples_(samples),
+        model_(model),
+        noise_(noise),
+        threads_(threads),
+        fans_(fans),
+        position_(smoothed(surface.mesh.vertices, fans, threads)),
+        normal_(averaged_normals(position_, fans, threads)) {
+    for (std::size_t v = 0; v < position_.size(); ++v)
+      if (noise_[v] < 0) position_[v] = surface.mesh.vertices[v]; // it stays, but says which side its sample is on
+  }
+
+  std::vector<Vec3> run() {
+    ClusterPyramid clusters(fans_, position_, normal_, samples_, vertices_of_samples(), threads_);
+    for (const FitEffort& effort : efforts) {
+      const FitPlaces places = make_places(clusters);
+      if (width_.empty()) width_ = chosen_widths(places, clusters, threads_);
+      move(clusters, fits_of_widths(places, clusters, width_, effort, threads_));
+      clusters.set_normals(normal_);
+    }
+    std::vector<Vec3> result = surface_.mesh.vertices;
+    for (std::size_t v = 0; v < result.size(); ++v)
+      if (noise_[v] >= 0) result[v] = limited(result[v], position_[v], farthest(v));
+    return result;
+  }
+
+ private:
+  [[nodiscard]] double spacing_at(std::size_t v) const {
+    return static_cast<double>(model_.spacing[surface_.sample_of[v]]);
+  }
+  [[nodiscard]] double noise_at(std::size_t v) const { return std::max(0.0, static_cast<double>(noise_[v])); }
+  [[nodiscard]] double farthest(std::size_t v) const {
+    return static_cast<double>(noise_bound) * noise_at(v) +
+           farthest_in_spacings * std::min(spacing_at(v), model_.typical_spacing);
+  }
+
+  /// Samples are on the side of the vertex next to them; those farther off than noise explains are on none.
+  [[nodiscard]] std::vector<std::uint32_t> vertices_of_samples() const {
+    std::vector<std::uint32_t> vertex_of(samples_.size(), ClusterPyramid::no_vertex);
+    for (std::uint32_t v = 0; v < position_.size(); ++v) vertex_of[surface_.sample_of[v].value] = v;
+    const PointTree tree(position_);
+    for_each_index(
+        threads_, samples_.size(),
+        [&](std::size_t s) {
+          std::uint32_t v = vertex_of[s];
+          if (v == ClusterPyramid::no_vertex) {
+            double square = 0;
+            tree.nearest(samples_[s], 1, &v, &square);
+          }
+          const double beside = std::fabs(dot(samples_[s] - position_[v], normal_[v]));
+          const double far = static_cast<double>(noise_bound) * noise_at(v) + spacing_at(v);
+          vertex_of[s] = beside < far ? v : ClusterPyramid::no_vertex;
+        },
+        costly_block);
+    return vertex_of;
+  }
+
+  [[nodiscard]] FitPlaces make_places(const ClusterPyramid& clusters) const {
+    const ClusterLevel &fine = clusters[0], &level = clusters[FitPlaces::level];
+    const std::size_t n = level.cluster.size();
+    FitPlaces places{std::vector<Vec3>(n),   level.normal,           std::vector<double>(n),
+                     std::vector<double>(n), std::vector<double>(n), std::vector<std::uint8_t>(n, 0)};
+    std::vector<double> count(n, 0);
+    for (std::size_t v = 0; v < position_.size(); ++v) {
+      const std::uint32_t p = fine.parent[v];
+      places.position[p] = places.position[p] + position_[v];
+      places.noise[p] += noise_at(v);
+      places.spacing[p] += spacing_at(v);
+      places.wanted[p] |= noise_[v] >= 0;
+      count[p] += 1;
+    }
+    for (std::size_t p = 0; p < n; ++p) {
+      places.position[p] = (1 / count[p]) * places.position[p];
+      places.noise[p] /= count[p];
+      places.spacing[p] /= count[p];
+      places.unit[p] = std::max(places.noise[p], least_unit_in_spacings * places.spacing[p]);
+    }
+    return places;
+  }
+
+  /// Each vertex onto the mean of the fits around it.
+  void move(const ClusterPyramid& clusters, const PlaceFits& fits) {
+    const std::vector<std::uint32_t>& place_of = clusters[0].parent;
+    const ClusterLevel &places = clusters[FitPlaces::level], &wider = clusters[FitPlaces::level + 1];
+    for_each_index(
+        threads_, position_.size(),
+        [&](std::size_t v) {
+          if (noise_[v] < 0 || !(squared_norm(normal_[v]) > 0)) return;
+          const std::uint32_t own = place_of[v];
+          double offset = 0, total = 0;
+          Vec3 normal;
+          const double unit = std::max(noise_at(v), least_unit_in_spacings * spacing_at(v));
+          const double radius = blend_reach * width_[own] * unit;
+          const auto take = [&](std::uint32_t p) {
+            const LocalQuadric& fit = fits.fit[p];
+            if (!(fit.variance > 0) || !(dot(fit.normal, normal_[v]) > same_side)) return;
+            const double nearness = 1 - squared_norm(fit.origin - position_[v]) / (radius * radius);
+            if (!(nearness > 0)) return;
+            // Fits across an edge fit badly: they leave the word to those beside it.
+            const double misfit = fit.noise_variance + least_misfit * unit * unit;
+            const double w = nearness * nearness / (fit.variance * misfit * misfit);
+            offset += w * fit.offset(position_[v], normal_[v]);
+            normal = normal + w * fit.normal_at(position_[v]);
+            total += w;
+          };
+          if (const std::uint32_t above = places.parent[own]; fits.wide[above]) {
+            take(wider.seed[above]);
+            for (const std::uint32_t c : wider.neighbours[above]) take(wider.seed[c]);
+          } else {
+            take(own);
+            for (const std::uint32_t p : places.neighbours[own]) take(p);
+          }
+          if (!(total > 0)) return;
+          position_[v] = position_[v] + (offset / total) * normal_[v];
+          if (const double length = norm(normal); length > 0) normal_[v] = (1 / length) * normal;
+        },
+        costly_block);
+  }
+
+  const Surface& surface_;
+  std::span<const Vec3> samples_;
+  const SampleModel& model_;
+  std::span<const float> noise_;
+  const Threads& threads_;
+  const SurfaceFans& fans_;
+  std::vector<Vec3> position_, normal_; ///< of each vertex
+  std::vector<double> width_;           ///< of each place, in its units
+};
+
+} // namespace
+
+std::vector<float> noise_to_fit(const Surface& surface, const SurfaceFans& fans, const SampleModel& model,
+                                SurfaceKind kind, const Threads& threads) {
+  if (kind == SurfaceKind::samples) return {};
+  std::vector<float> noise = noise_at_vertices(surface, fans, model, threads);
+  if (kind == SurfaceKind::fitted) return noise;
+  if (std::none_of(noise.begin(), noise.end(), [](float sigma) { return sigma > 0; })) return {};
+  for (float& sigma : noise)
+    if (sigma == 0) sigma = -1;
+  return noise;
+}
+
+std::vector<Vec3> fitted_vertices(const Surface& surface, const SurfaceFans& fans, std::span<const Vec3> samples,
+                                  const SampleModel& model, std::span<const float> noise, const Threads& threads) {
+  return SurfaceFit(surface, fans, samples, model, noise, threads).run();
+}
+
+} // namespace eigencrust

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The surface through the middle of the noise (not in the paper; docs/decisions/0036).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <eigencrust/options.h>
+#include <eigencrust/stages.h>
+
+#include "samples/sample_model.h"
+#include "surface/fans.h"
+
+namespace eigencrust {
+
+/// The noise at each vertex of the surface that is to be fitted, negative at those that stay; empty: all stay.
+/// \param fans of the surface \param kind samples: all stay; fitted: none; automatic: those without noise. There is
+/// some where it is more than a
+///        tenth of the spacing, in pieces of which a tenth of the vertices have as much (less, or in single places, is
+///        curvature mistaken for noise), and ten edges around, for thin parts read as free of it.
+std::vector<float> noise_to_fit(const Surface& surface, const SurfaceFans& fans, const SampleModel& model,
+                                SurfaceKind kind, const Threads& threads);
+
+/// The places of all vertices after those that `noise` is given for have moved to the middle of the samples around.
+/// They start from where a few steps of smoothing leave them, so that triangles are in order, and then move along the
+/// normal of a local fit as wide as the samples allow. None moves farther than 3 deviations of the noise and one
+/// spacing. \param samples distinct \param noise of each vertex; negative: it stays
+std::vector<Vec3> fitted_vertices(const Surface& surface, const SurfaceFans& fans, std::span<const Vec3> samples,
+                                  const SampleModel& model, std::span<const float> noise, const Threads& threads);
+
+} // namespace eigencrust

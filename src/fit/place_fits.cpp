@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/place_fits.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "samples/place_model.h"
+
+namespace eigencrust {
+namespace {
+
+// In units of the larger of σ and 0.7 spacings; each has twice the samples of the one before.
+constexpr std::array<double, 7> widths{2.83, 4, 5.66, 8, 11.3, 16, 22.6};
+// Cosine: samples of one side.
+constexpr double same_side = 0.5;
+// Up to so many times the noise that the model knows of is noise; what is more about a narrow fit is shape.
+constexpr double over_model = 1.2;
+// Clusters are as coarse as leaves so many of them in a fit that is compared with others.
+constexpr double enough_to_choose = 25;
+// What the means over few places leave of the bias counts so much: more leaves noise in, less rounds off what is sharp.
+constexpr double bias_counts = 0.8;
+// A width whose risk is so many times that of another is the last one looked at.
+constexpr double hopeless = 3;
+// In noise of less than so many spacings every third place is looked at; in more each counts.
+constexpr double little_noise = 0.6;
+constexpr std::size_t in_little_noise = 3;
+// Rounds in which the choice is averaged over the neighbours: a single one hangs on the noise at its place.
+constexpr int averaging_rounds = 2;
+// Places are looked at in blocks, each with a memory of its own.
+constexpr std::size_t places_per_block = 512;
+
+/// Clusters around a place, found along the surface. The way leads over clusters of the next level, which are fewer.
+class Neighbourhood {
+ public:
+  Neighbourhood() : slot_(slots) {}
+
+  /// \param start one of the level above, which is always one of those whose children are looked at
+  /// \return of the level, those in the ball that look the same way; valid until the next call
+  const std::vector<std::uint32_t>& find(const ClusterPyramid& samples, std::size_t level, std::uint32_t start,
+                                         const Vec3& origin, const Vec3& normal, double radius) {
+    const ClusterLevel &fine = samples[level], &above = samples[level + 1];
+    walk(above, start, origin, normal, radius);
+    found_.clear();
+    for (const std::uint32_t way : way_)
+      for (const std::uint32_t c : above.children[way])
+        if (squared_norm(fine.cluster[c].mean - origin) < radius * radius && dot(fine.normal[c], normal) > same_side)
+          found_.push_back(c);
+    return found_;
+  }
+
+ private:
+  static constexpr std::size_t slots = 4096, most = 400; // a bound on the work
+
+  void walk(const ClusterLevel& level, std::uint32_t start, const Vec3& origin, const Vec3& normal, double radius) {
+    ++round_;
+    way_.assign(1, start);
+    is_new(start);
+    std::size_t seen = 1;
+    for (std::size_t i = 0; i < way_.size(); ++i)
+      for (const std::uint32_t c : level.neighbours[way_[i]]) {
+        if (seen >= most || !is_new(c)) continue;
+        ++seen;
+        const double reach = radius + level.extent[c];
+        if (dot(level.normal[c], normal) > same_side && squared_norm(level.cluster[c].mean - origin) < reach * reach)
+          way_.push_back(c);
+      }
+  }
+
+  bool is_new(std::uint32_t c) {
+    constexpr std::uint32_t golden = 2654435769U; // Knuth 1973, 6.4
+    for (std::size_t at = (c * golden) >> 20;; at = (at + 1) % slots) {
+      if (slot_[at].round != round_) {
+        slot_[at] = {round_, c};
+        return true;
+      }
+      if (slot_[at].item == c) return false;
+    }
+  }
+
+  struct Slot {
+    std::uint32_t round = 0, item = 0;
+  };
+  std::vector<Slot> slot_;
+  std::vector<std::uint32_t> way_, found_;
+  std::uint32_t round_ = 0;
+};
+
+class PlaceFitter {
+ public:
+  PlaceFitter(const FitPlaces& places, const ClusterPyramid& samples, double enough)
+      : places_(places), samples_(samples), enough_(enough) {}
+
+  std::optional<LocalQuadric> fit(std::size_t p, double width) { return fits(p, std::span(&width, 1))[0]; }
+
+  /// Those of the increasing widths that look at clusters of one level, the first at least: one search does for all.
+  const std::vector<std::optional<LocalQuadric>>& fits(std::size_t p, std::span<const double> width) {
+    const Vec3 &origin = places_.position[p], &normal = places_.normal[p];
+    const auto radius = [&](std::size_t k) { return width[k] * places_.unit[p]; };
+    const std::size_t l = level_for(radius(0) / places_.spacing[p]);
+    fits_.clear();
+    fits_.emplace_back(origin, normal, radius(0));
+    for (std::size_t k = 1; k < width.size() && level_for(radius(k) / places_.spacing[p]) == l; ++k)
+      fits_.emplace_back(origin, normal, radius(k));
+    // Where the width ends samples are still as thick as in the middle.
+    const double reach = std::hypot(radius(fits_.size() - 1), static_cast<double>(noise_bound) * places_.noise[p]);
+    for (const std::uint32_t c : around_.find(samples_, l, cluster_of(p, l + 1), origin, normal, reach))
+      for (QuadricFit& fit : fits_) fit.add(samples_[l].cluster[c]);
+    solved_.clear();
+    for (const QuadricFit& fit : fits_) solved_.push_back(fit.solve(most_noise(p)));
+    return solved_;
+  }
+
+  /// The narrowest fit knows the noise best, but where the shape is as fine it takes that for noise, too.
+  [[nodiscard]] double most_noise(std::size_t p) const {
+    return places_.noise[p] > 0 ? over_model * places_.noise[p] : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  [[nodiscard]] std::size_t level_for(double radius_in_spacings) const {
+    double clusters = std::numbers::pi * radius_in_spacings * radius_in_spacings / 4;
+    std::size_t l = 0;
+    for (; clusters > enough_ && l + 2 < samples_.levels(); clusters /= 4) ++l;
+    return l;
+  }
+  /// \param level that of the places or a coarser one
+  [[nodiscard]] std::uint32_t cluster_of(std::size_t p, std::size_t level) const {
+    auto c = static_cast<std::uint32_t>(p);
+    for (std::size_t l = FitPlaces::level; l < level; ++l) c = samples_[l].parent[c];
+    return c;
+  }
+
+  const FitPlaces& places_;
+  const ClusterPyramid& samples_;
+  double enough_;
+  Neighbourhood around_;
+  std::vector<QuadricFit> fits_;
+  std::vector<std::optional<LocalQuadric>> solved_;
+};
+
+/// The width of least risk, which is the square of the bias and the variance together. Fits twice as wide have a bias
+/// 16 times as large (quadrics miss terms of the fourth order), so that the difference of two fits shows the bias of
+/// the wider one; what noise explains of it is taken off. Single differences say little, their means over the places
+/// around a good deal.
+class WidthChoice {
+ public:
+  WidthChoice(const FitPlaces& places, const ClusterPyramid& samples, const Threads& threads)
+      : places_(places),
+        samples_(samples),
+        threads_(threads),
+        running_(places.wanted),
+        noise_(places.position.size(), -1),
+        bias_(noise_.size(), 0),
+        choice_(noise_.size(), -1),
+        fitted_(noise_.size(), 0) {
+    const std::vector<float> zeros(noise_.size(), 0);
+    levels_.fill({zeros, zeros, std::vector<float>(noise_.size(), none)});
+    for (std::size_t p = 0; p < running_.size(); ++p)
+      running_[p] &= squared_norm(places.normal[p]) > 0 &&
+                     (p % in_little_noise == 0 || places.noise[p] > little_noise * places.spacing[p]);
+  }
+
+  std::vector<double> run() {
+    for (std::size_t k = 0; k < widths.size(); ++k) {
+      fit(k);
+      if (k == 0) find_noise();
+      weigh(k);
+    }
+    for (std::size_t p = 0; p < choice_.size(); ++p) choice_[p] = least(p);
+    for (int round = 0; round < averaging_rounds; ++round) choice_ = pooled(choice_);
+    for (double& c : choice_) c = c < 0 ? 0 : widths[0] * std::exp2(c / 2);
+    return std::move(choice_);
+  }
+
+ private:
+  static constexpr float none = -1;
+  struct Level {
+    std::vector<float> offset, variance; ///< variance in units of a sample's; 0: no fit
+    std::vector<float> risk;
+  };
+
+  /// Fits of this width, and of the next ones where they cost little more.
+  void fit(std::size_t k) {
+    for_blocks(threads_, running_.size(), places_per_block, [&](std::size_t begin, std::size_t end, std::size_t) {
+      PlaceFitter fitter(places_, samples_, enough_to_choose);
+      for (std::size_t p = begin; p < end; ++p) {
+        if (!running_[p] || fitted_[p] > k) continue;
+        for (const auto& found : fitter.fits(p, std::span(widths).subspan(k))) {
+          Level& level = levels_[fitted_[p]++];
+          if (!found) continue;
+          level.offset[p] = static_cast<float>(found->offset(places_.position[p], places_.normal[p]));
+          level.variance[p] = static_cast<float>(found->variance);
+          if (noise_[p] < 0) noise_[p] = found->noise_variance;
+        }
+      }
+    });
+  }
+
+  /// The narrowest fits know the noise best. The model knows too little of it in thin parts, and is not asked.
+  void find_noise() {
+    const std::vector<double> mean = pooled(noise_);
+    for (std::size_t p = 0; p < mean.size(); ++p)
+      if (mean[p] >= 0) noise_[p] = mean[p];
+  }
+
+  void weigh(std::size_t k) {
+    const std::size_t j = k < 2 ? 0 : k - 2;
+    const double less_biased = std::pow(widths[j] / widths[k], 4);
+    const auto& [offset, variance, unused] = levels_[k];
+    std::vector<double> apart(offset.size(), -1), explained(offset.size(), -1);
+    for (std::size_t p = 0; p < offset.size(); ++p) {
+      if (variance[p] == 0 || levels_[j].variance[p] == 0) continue;
+      apart[p] = std::fabs(static_cast<double>(offset[p] - levels_[j].offset[p]));
+      explained[p] = noise_[p] * std::max(0.0, static_cast<double>(levels_[j].variance[p] - variance[p]));
+    }
+    if (k > 0) {
+      apart = pooled(apart);
+      explained = pooled(explained);
+    }
+    for (std::size_t p = 0; p < offset.size(); ++p) {
+      if (!running_[p] || variance[p] == 0) continue;
+      if (k > 0 && apart[p] >= 0) {
+        // Of normal deviates the mean square is pi / 2 of the squared mean; that is surer where some are wild.
+        const double square = std::numbers::pi / 2 * apart[p] * apart[p] - explained[p];
+        bias_[p] = std::max(bias_[p], square / ((1 - less_biased) * (1 - less_biased)));
+      }
+      levels_[k].risk[p] = static_cast<float>(bias_counts * bias_[p] + noise_[p] * static_cast<double>(variance[p]));
+      double best = std::numeric_limits<double>::infinity();
+      for (const Level& level : levels_) // those to come have none yet
+        if (level.risk[p] >= 0) best = std::min(best, static_cast<double>(level.risk[p]));
+      running_[p] = static_cast<double>(levels_[k].risk[p]) < hopeless * best;
+    }
+  }
+
+  /// Means over the places and their neighbours on the same side of what is not negative; -1: nothing.
+  [[nodiscard]] std::vector<double> pooled(const std::vector<double>& value) const {
+    std::vector<double> result(value.size());
+    for_each_index(threads_, value.size(), [&](std::size_t p) {
+      double sum = 0, count = 0;
+      for_same_side(p, [&](std::size_t q) {
+        if (value[q] < 0) return;
+        sum += value[q];
+        count += 1;
+      });
+      result[p] = count > 0 ? sum / count : -1;
+    });
+    return result;
+  }
+
+  /// The place itself counts twice among its neighbours.
+  template <class Visit>
+  void for_same_side(std::size_t p, Visit&& visit) const {
+    visit(p);
+    visit(p);
+    for (const std::uint32_t q : samples_[FitPlaces::level].neighbours[p])
+      if (dot(places_.normal[q], places_.normal[p]) > same_side) visit(q);
+  }
+
+  /// The level of least risk, between levels by the parabola through three; negative: none.
+  [[nodiscard]] double least(std::size_t p) const {
+    std::size_t best = widths.size();
+    const auto risk = [&](std::size_t k) { return static_cast<double>(levels_[k].risk[p]); };
+    for (std::size_t k = 0; k < widths.size(); ++k)
+      if (risk(k) >= 0 && (best == widths.size() || risk(k) < risk(best))) best = k;
+    if (best == widths.size()) return -1;
+    const auto at = static_cast<double>(best);
+    if (best == 0 || best + 1 == widths.size() || risk(best - 1) < 0 || risk(best + 1) < 0) return at;
+    const double bend = risk(best - 1) - 2 * risk(best) + risk(best + 1);
+    return bend > 0 ? at + 0.5 * (risk(best - 1) - risk(best + 1)) / bend : at;
+  }
+
+  const FitPlaces& places_;
+  const ClusterPyramid& samples_;
+  const Threads& threads_;
+  std::vector<std::uint8_t> running_; ///< places whose risk may still fall
+  std::vector<double> noise_;         ///< variance; negative: unknown
+  std::vector<double> bias_;          ///< square, of the level before or of narrower ones
+  std::vector<double> choice_;
+  std::vector<std::uint8_t> fitted_; ///< the number of widths that were
+  std::array<Level, widths.size()> levels_;
+};
+
+} // namespace
+
+std::vector<double> chosen_widths(const FitPlaces& places, const ClusterPyramid& samples, const Threads& threads) {
+  return WidthChoice(places, samples, threads).run();
+}
+
+namespace {
+
+/// Where all fits are wide.
+std::vector<std::uint8_t> wide_clusters(const FitPlaces& places, const ClusterPyramid& samples,
+                                        const std::vector<double>& width, double wide_in_spacings) {
+  const std::vector<std::uint32_t>& parent = samples[FitPlaces::level].parent;
+  std::vector<std::uint8_t> wide(samples[FitPlaces::level + 1].cluster.size(), 1);
+  for (std::size_t p = 0; p < width.size(); ++p)
+    if (width[p] * places.unit[p] < wide_in_spacings * places.spacing[p]) wide[parent[p]] = 0;
+  return wide;
+}
+
+} // namespace
+
+PlaceFits fits_of_widths(const FitPlaces& places, const ClusterPyramid& samples, const std::vector<double>& width,
+                         const FitEffort& effort, const Threads& threads) {
+  PlaceFits fits{std::vector<LocalQuadric>(places.position.size()), wide_clusters(places, samples, width, effort.wide)};
+  const std::vector<std::uint32_t>&parent = samples[FitPlaces::level].parent,
+        &seed = samples[FitPlaces::level + 1].seed;
+  for_blocks(threads, fits.fit.size(), places_per_block, [&](std::size_t begin, std::size_t end, std::size_t) {
+    PlaceFitter fitter(places, samples, effort.clusters);
+    for (std::size_t p = begin; p < end; ++p) {
+      if (!(width[p] > 0) || !(squared_norm(places.normal[p]) > 0)) continue;
+      if (fits.wide[parent[p]] && seed[parent[p]] != p) continue;
+      std::optional<LocalQuadric> fit;
+      for (double w = width[p]; !fit && w < 2 * widths.back(); w *= 2) fit = fitter.fit(p, w);
+      if (fit) fits.fit[p] = *fit;
+    }
+  });
+  return fits;
+}
+
+} // namespace eigencrust

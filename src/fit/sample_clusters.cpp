@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/sample_clusters.h"
+
+#include <algorithm>
+
+namespace eigencrust {
+namespace {
+
+// Cosine: clusters that are joined.
+constexpr double same_way = 0.8;
+// Fewer clusters need no coarser ones.
+constexpr std::size_t few = 64, least_levels = 3;
+
+std::vector<Vec3> summed_normals(const ClusterLevel& fine, std::size_t count) {
+  std::vector<Vec3> normal(count);
+  for (std::size_t c = 0; c < fine.parent.size(); ++c)
+    normal[fine.parent[c]] = normal[fine.parent[c]] + fine.cluster[c].count * fine.normal[c];
+  for (std::size_t p = 0; p < count; ++p)
+    if (const double length = norm(normal[p]); length > 0) normal[p] = (1 / length) * normal[p];
+  return normal;
+}
+
+} // namespace
+
+void SampleCluster::add(const SampleCluster& other) {
+  if (!(other.count > 0)) return;
+  const double total = count + other.count;
+  const Vec3 d = other.mean - mean;
+  const double mine = count / total, others = other.count / total, between = mine * others;
+  const std::array<double, 6> apart{d.x * d.x, d.x * d.y, d.x * d.z, d.y * d.y, d.y * d.z, d.z * d.z};
+  for (std::size_t k = 0; k < apart.size(); ++k)
+    spread[k] = mine * spread[k] + others * other.spread[k] + between * apart[k];
+  mean = mean + others * d;
+  count = total;
+}
+
+double SampleCluster::covariance(const Vec3& a, const Vec3& b) const {
+  const auto& s = spread;
+  return a.x * (s[0] * b.x + s[1] * b.y + s[2] * b.z) + a.y * (s[1] * b.x + s[3] * b.y + s[4] * b.z) +
+         a.z * (s[2] * b.x + s[4] * b.y + s[5] * b.z);
+}
+
+ClusterPyramid::ClusterPyramid(const SurfaceFans& fans, std::span<const Vec3> position, std::vector<Vec3> normal,
+                               std::span<const Vec3> samples, std::span<const std::uint32_t> vertex_of,
+                               const Threads& threads) {
+  ClusterLevel base;
+  base.cluster.resize(normal.size());
+  for (std::size_t v = 0; v < normal.size(); ++v) base.cluster[v].mean = position[v];
+  for (std::size_t s = 0; s < samples.size(); ++s)
+    if (vertex_of[s] != no_vertex) base.cluster[vertex_of[s]].add({samples[s], {}, 1});
+  base.normal = std::move(normal);
+  base.neighbours = build_rows<std::uint32_t>(threads, base.cluster.size(), long_block, [&fans] {
+    return [&fans](std::size_t v, std::vector<std::uint32_t>& row) {
+      for (const auto& wing : fans[v]) row.push_back(wing.next);
+    };
+  });
+  levels_.push_back(std::move(base));
+  while (levels_.size() < least_levels || (levels_.size() < most_levels && levels_.back().cluster.size() > few))
+    levels_.push_back(coarser(levels_.back(), threads));
+}
+
+ClusterLevel ClusterPyramid::coarser(ClusterLevel& fine, const Threads& threads) {
+  constexpr std::uint32_t free = no_vertex;
+  ClusterLevel coarse;
+  const auto n = static_cast<std::uint32_t>(fine.cluster.size());
+  fine.parent.assign(n, free);
+  for (std::uint32_t c = 0; c < n; ++c) {
+    if (fine.parent[c] != free) continue;
+    const auto p = static_cast<std::uint32_t>(coarse.seed.size());
+    coarse.seed.push_back(c);
+    fine.parent[c] = p;
+    for (const std::uint32_t o : fine.neighbours[c])
+      if (fine.parent[o] == free && dot(fine.normal[o], fine.normal[c]) > same_way) fine.parent[o] = p;
+  }
+  coarse.children = build_rows<std::uint32_t>(coarse.seed.size(), [&](auto&& visit) {
+    for (std::uint32_t c = 0; c < n; ++c) visit(fine.parent[c], c);
+  });
+  coarse.cluster.resize(coarse.seed.size());
+  coarse.extent.resize(coarse.seed.size());
+  for_each_index(threads, coarse.seed.size(), [&](std::size_t p) {
+    SampleCluster& cluster = coarse.cluster[p];
+    cluster.mean = fine.cluster[coarse.seed[p]].mean;
+    for (const std::uint32_t c : coarse.children[p]) cluster.add(fine.cluster[c]);
+    for (const std::uint32_t c : coarse.children[p])
+      coarse.extent[p] = std::max(coarse.extent[p], distance(fine.cluster[c].mean, cluster.mean));
+  });
+  coarse.normal = summed_normals(fine, coarse.seed.size());
+  const auto neighbours = [&] {
+    return [&](std::size_t p, std::vector<std::uint32_t>& row) {
+      const auto begin = static_cast<std::ptrdiff_t>(row.size());
+      for (const std::uint32_t c : coarse.children[p])
+        for (const std::uint32_t o : fine.neighbours[c])
+          if (const std::uint32_t q = fine.parent[o]; q != p) row.push_back(q);
+      std::sort(row.begin() + begin, row.end());
+      row.erase(std::unique(row.begin() + begin, row.end()), row.end());
+    };
+  };
+  coarse.neighbours = build_rows<std::uint32_t>(threads, coarse.seed.size(), long_block, neighbours);
+  return coarse;
+}
+
+void ClusterPyramid::set_normals(std::vector<Vec3> normal) {
+  levels_[0].normal = std::move(normal);
+  for (std::size_t l = 1; l < levels_.size(); ++l)
+    levels_[l].normal = summed_normals(levels_[l - 1], levels_[l].cluster.size());
+}
+
+} // namespace eigencrust
