@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "repair/generators.h"
@@ -41,7 +42,7 @@ class HandleClosing {
     const Surface surface = extract_surface(t_, moves_.labels().all(), moves_.scene.threads);
     const auto& triangles = surface.mesh.triangles;
     const std::size_t vertices = surface.mesh.vertices.size();
-    LoopsNearby nearby(triangles, vertices);
+    std::optional<LoopsNearby> nearby; // most surfaces have no handle that asks for it
     changed_.assign(t_.positions.size(), 0);
     std::uint64_t closed = 0;
     for (const auto& far : handle_loops(triangles, vertices, longest_loop, moves_.scene.threads)) {
@@ -54,9 +55,10 @@ class HandleClosing {
       }
       // A loop seen from afar may go through one handle and around another; those from its own vertices go around one.
       // All parts together are no larger than the surface: what is full of handles is no surface.
-      if (nearby.visited() > vertices) continue;
+      if (!nearby) nearby.emplace(triangles, vertices);
+      if (nearby->visited() > vertices) continue;
       const auto radius = static_cast<std::uint32_t>((far.size() + 1) / 2);
-      for (const auto& near : nearby.at(far.front(), radius, moves_.scene.threads))
+      for (const auto& near : nearby->at(far.front(), radius, moves_.scene.threads))
         if (close(samples_of(surface, near))) {
           ++closed;
           break;

@@ -131,21 +131,4 @@ void trim(std::vector<std::uint8_t> unsupported, Surface& surface) {
   } while (mark_smaller_fans(surface.mesh, unsupported) > 0);
 }
 
-void close_single_triangles(Surface& surface) {
-  TriangleMesh& mesh = surface.mesh;
-  const std::vector<std::uint32_t> next = along_rims(mesh);
-  std::vector<std::uint32_t> uses(next.size(), 0);
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t) ++uses[v];
-  for (std::uint32_t a = 0; a < next.size(); ++a) {
-    if (next[a] == no_index) continue;
-    const std::uint32_t b = next[a], c = next[b];
-    if (c == no_index || next[c] != a || a > std::min(b, c)) continue;
-    if (uses[a] == 1 && uses[b] == 1 && uses[c] == 1) continue; // a piece of one triangle
-    mesh.triangles.push_back({c, b, a});
-    surface.support.push_back(0);
-    surface.inside.emplace_back();
-  }
-}
-
 } // namespace eigencrust

@@ -30,7 +30,5 @@ struct UnsupportedTriangles {
 /// Takes away the triangles marked, and then, at vertices with several fans, all but the largest fan: an oriented
 /// manifold surface stays one, with boundary.
 void trim(std::vector<std::uint8_t> unsupported, Surface& surface);
-/// Closes rims of three edges: such a hole is no opening, and to close it invents nothing that its edges do not show.
-void close_single_triangles(Surface& surface);
 
 } // namespace eigencrust

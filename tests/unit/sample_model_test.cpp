@@ -117,7 +117,8 @@ TEST(SampleModel, PartsSideBySideAreNoNoise) {
     for (Vec3& p : points) p = p + sigma * Vec3{deviate(random), deviate(random), deviate(random)};
     const Ordered o(points);
     float most = 0;
-    for (std::size_t row = body; row < points.size(); ++row) most = std::max(most, o.model.noise[o.at(row)]);
+    for (std::size_t row = body; row < points.size(); ++row)
+      most = std::max(most, o.model.noise[SampleIndex{o.at(row)}]);
     EXPECT_LT(most, 1.5 * sigma) << "seed " << seed;
   }
 }

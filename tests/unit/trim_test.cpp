@@ -166,39 +166,6 @@ TEST(Trim, KeepsTheLargestFan) {
   EXPECT_TRUE(none.mesh.triangles.empty() && none.mesh.vertices.empty());
 }
 
-TEST(CloseSingleTriangles, OnlyHolesOfOneTriangle) {
-  Hull hull(clouds::sphere(200));
-  const std::size_t all = hull.surface.mesh.triangles.size();
-  // One triangle here, two neighbours at the other end of the list.
-  const auto shared = [&](std::size_t i, std::size_t j) {
-    const auto &a = hull.surface.mesh.triangles[i], &b = hull.surface.mesh.triangles[j];
-    return std::count_if(a.begin(), a.end(),
-                         [&](std::uint32_t v) { return std::find(b.begin(), b.end(), v) != b.end(); });
-  };
-  std::size_t second = all - 1, third = 0;
-  while (shared(second, third) != 2 || shared(0, third) > 0) ++third;
-  ASSERT_EQ(shared(0, second), 0);
-  std::vector<std::uint8_t> gone(all, 0);
-  gone[0] = gone[second] = gone[third] = 1;
-  trim(gone, hull.surface);
-  ASSERT_EQ(validate(hull.surface.mesh).boundary_loops, 2u);
-  close_single_triangles(hull.surface);
-  const MeshSummary summary = validate(hull.surface.mesh);
-  EXPECT_EQ(summary.triangles, all - 2);
-  EXPECT_EQ(summary.boundary_loops, 1u);
-  EXPECT_EQ(summary.boundary_edges, 4u);
-  EXPECT_TRUE(summary.manifold() && summary.oriented());
-  EXPECT_EQ(hull.surface.support.size(), hull.surface.mesh.triangles.size());
-  EXPECT_EQ(hull.surface.inside.size(), hull.surface.mesh.triangles.size());
-
-  Hull one(clouds::sphere(200));
-  std::vector<std::uint8_t> rest(all, 1);
-  rest[0] = 0;
-  trim(rest, one.surface);
-  close_single_triangles(one.surface);
-  EXPECT_EQ(one.surface.mesh.triangles.size(), 1u); // a piece is no hole
-}
-
 TEST(OneSidedScan, AllLinesWithinSixtyDegreesOfTheirMean) {
   const Prepared p = clouds::prepare(clouds::random_box(40, 9));
   const auto lines_at = [&](double degrees) { // two directions, in turn
