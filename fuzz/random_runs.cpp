@@ -170,6 +170,17 @@ void choose_method(Dice& dice, Options& o) {
   o.grid_spacing = length(dice);
 }
 
+void choose_surface(Dice& dice, Options& o) {
+  if (dice.one_in(2)) o.surface = dice.one_in(2) ? SurfaceKind::automatic : SurfaceKind::fitted;
+  if (!o.trim && dice.one_in(6)) o.base = true;
+  if (!dice.one_in(8)) return;
+  o.method = dice.among(std::array{Method::powercrust, Method::spectral_powercrust, Method::tight_cocone,
+                                   Method::robust_cocone, Method::spectral_cocone});
+  if (o.method == Method::spectral_cocone) return;
+  o.facade.reset();
+  o.point_results = false;
+}
+
 Options options_of(Dice& dice, const PointCloud& cloud) {
   Options o = Options::of(dice.one_in(3) ? Preset::paper : Preset::robust);
   choose_method(dice, o);
@@ -192,6 +203,7 @@ Options options_of(Dice& dice, const PointCloud& cloud) {
   if (dice.one_in(8)) o.inside_points.push_back(near());
   if (dice.one_in(3)) o.point_results = true;
   if (dice.one_in(16)) o.max_memory = 12'000'000 + 2000u * dice.below(400);
+  choose_surface(dice, o);
   o.threads = 1;
   return o;
 }
@@ -217,10 +229,12 @@ std::string describe(const Options& o) {
                      std::to_string(o.solver.max_steps) + " --questionable " + to_string(o.questionable) + " --noise " +
                      to_string(o.noise) + " --grid-spacing " + to_string(o.grid_spacing) + " --components " +
                      to_string(o.components) + " --smooth " + std::to_string(o.smooth) + " --smoothing " +
-                     to_string(o.smoothing) + " (sign: " + to_string(o.global_sign) +
+                     to_string(o.smoothing) + " --surface " + to_string(o.surface) + " --method " +
+                     to_string(o.method) + " (sign: " + to_string(o.global_sign) +
                      ", manifold rule: " + to_string(o.manifold_rule) + ")";
   if (!o.manifold) text += " --no-manifold";
   text += o.facade ? " --facade=" + to_string(*o.facade) : o.detect_facade ? "" : " --facade off";
+  if (o.base) text += " --base";
   if (o.trim) text += " --trim";
   if (o.crossing_depth) text += " --crossing-depth " + std::to_string(*o.crossing_depth);
   if (o.max_memory > 0) text += " --max-memory " + std::to_string(o.max_memory);

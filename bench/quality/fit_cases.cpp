@@ -39,7 +39,9 @@ Result reconstructed(const FitScene& scene, SurfaceKind kind, unsigned threads) 
 void run_poisson(const Truth& truth, const FitScene& scene, const FitBenchOptions& options, FitOutcome& outcome) {
   const std::string name = outcome.shape + "-" + std::to_string(outcome.sigma);
   const std::filesystem::path cloud = options.work / (name + ".ply"), prefix = options.work / (name + "-poisson");
-  write_point_cloud(cloud, scene.cloud, {.coordinates = CoordinateType::float64});
+  WriteOptions as_they_are;
+  as_they_are.coordinates = CoordinateType::float64;
+  write_point_cloud(cloud, scene.cloud, as_they_are);
   std::vector<std::string> command{options.python, EIGENCRUST_POISSON_SCRIPT, cloud.string(), prefix.string()};
   for (const int depth : depths) command.push_back(std::to_string(depth));
   try {
