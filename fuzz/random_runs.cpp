@@ -178,7 +178,8 @@ void choose_surface(Dice& dice, Options& o) {
                                    Method::robust_cocone, Method::spectral_cocone});
   if (o.method == Method::spectral_cocone) return;
   o.facade.reset();
-  o.point_results = false;
+  o.point_results = o.base = o.trim = false;
+  if (o.method == Method::powercrust || o.method == Method::spectral_powercrust) o.surface = SurfaceKind::automatic;
 }
 
 Options options_of(Dice& dice, const PointCloud& cloud) {

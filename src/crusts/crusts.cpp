@@ -55,6 +55,10 @@ IndexedArray<PoleIndex, Label> sides_of_poles(const Scene& scene, const Evidence
                             : evidence.labels;
   IndexedArray<PoleIndex, Label> known(scene.poles.tetrahedron.size());
   for (PoleIndex p{0}; p.value < known.size(); ++p.value) known[p] = labels[scene.poles.tetrahedron[p]];
+  // What reaches to infinity is not inside: nothing would close it.
+  for (std::size_t f = 0; f < diagram.facets.size(); ++f)
+    if (diagram.polygon(f).empty())
+      for (const std::uint32_t p : diagram.facets[f]) known[PoleIndex{p}] = Label::outside;
   return context.run.stage("queue", [&] { return queue_labels(scene, diagram, std::move(known)); });
 }
 

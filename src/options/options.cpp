@@ -200,6 +200,11 @@ void check_options(const Options& options) {
   const bool by_crust = options.method != Method::eigencrust && options.method != Method::spectral_cocone;
   require(!by_crust || (!options.facade && !options.point_results),
           "façades, normals and outliers are found by eigencrust only", "leave out --method");
+  const bool of_poles = options.method == Method::powercrust || options.method == Method::spectral_powercrust;
+  require(!by_crust || (!options.base && !options.trim), "crusts are closed, and have no rim for --base or --trim",
+          "leave out --method");
+  require(!of_poles || options.surface != SurfaceKind::fitted,
+          "the vertices of a power crust are no samples, and are not fitted", "leave out --surface");
   require(options.smooth <= 1000, "more than 1000 smoothing steps", "use fewer");
   require(options.threads <= 1024, "more than 1024 threads", "use fewer");
   for (const auto* points : {&options.outside_points, &options.inside_points})

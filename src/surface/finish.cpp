@@ -78,9 +78,10 @@ void to_input_coordinates(Surface& surface, const Tetrahedralization& t, const s
 
 /// \param moved are the vertices in input coordinates already?
 Base put_on_base(Surface& surface, const Scene& scene, bool moved, Axis front) {
-  Base base = close_with_base(front, scene.measures.model, surface);
+  const Vec3 origin = moved ? Vec3{} : scene.tetrahedralization.origin;
+  Base base = close_with_base(front, scene.measures.model, origin, surface);
   const Vec3 axis = direction_of(front);
-  const Vec3 place = base.level * axis + (moved ? Vec3{} : scene.tetrahedralization.origin);
+  const Vec3 place = base.level * axis + origin;
   base.level = dot(place, axis) * (axis.x + axis.y + axis.z);
   return base;
 }

@@ -256,6 +256,8 @@ test_base_closes_ground() {
   expect 0 check pile.ply --json
   value report.json /base/volume_above_rim | awk '{ exit !($1 > 42.7 && $1 < 44.5) }' || die "the pile has 43.56"
   expect_error 2 "leave out one" pile.xyz -o trimmed.ply --base --trim
+  awk '{ printf "%.7f %.7f %.7f\n", $1 * 4e-6 + 1e7, $2 * 4e-6 + 1e7, $3 * 4e-6 }' pile.xyz >far.xyz
+  expect_error 3 "nearer to zero with --shift" far.xyz -o far.ply --base --facade +z
   sphere 1000 >ball.xyz
   expect_error 2 "--facade +z" ball.xyz -o ball.ply --base
 }

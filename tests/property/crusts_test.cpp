@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "clouds.h"
 #include "support.h"
@@ -90,11 +91,39 @@ TEST(Crusts, SameForAnyNumberOfThreads) {
     EXPECT_EQ(by(method, points, 1).mesh.triangles, by(method, points, 3).mesh.triangles) << to_string(method);
 }
 
+// Of a few cocircular points in a plane and some strays poles may be larger than the box around everything: their cells
+// reach to infinity, and would be left open.
+TEST(Crusts, WhatReachesToInfinityIsOutside) {
+  int meshes = 0;
+  for (std::uint32_t seed = 1; seed <= 100; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> coordinate(-1, 1);
+    std::uniform_int_distribution<int> step(0, 8);
+    Points points;
+    for (int i = 0; i < 34; ++i) points.push_back({double(step(random)), double(step(random)), 0});
+    for (int i = 0; i < 3; ++i) points.push_back({coordinate(random), coordinate(random), coordinate(random)});
+    try {
+      const Result result = by(Method::powercrust, points);
+      EXPECT_TRUE(result.report.mesh.closed()) << seed;
+      ++meshes;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::no_surface);
+    }
+  }
+  EXPECT_GT(meshes, 80);
+}
+
 TEST(Crusts, RefuseWhatOnlyEigencrustKnows) {
-  Options options;
-  options.method = Method::powercrust;
-  options.facade = Axis::plus_z;
-  EXPECT_NE(error_of([&] { check_options(options); }).find("leave out --method"), std::string::npos);
+  const auto answer = [](auto&& change) {
+    Options options;
+    options.method = Method::powercrust;
+    change(options);
+    return error_of([&] { check_options(options); });
+  };
+  EXPECT_NE(answer([](Options& o) { o.facade = Axis::plus_z; }).find("leave out --method"), std::string::npos);
+  EXPECT_NE(answer([](Options& o) { o.base = true; }).find("leave out --method"), std::string::npos);
+  EXPECT_NE(answer([](Options& o) { o.trim = true; }).find("leave out --method"), std::string::npos);
+  EXPECT_NE(answer([](Options& o) { o.surface = SurfaceKind::fitted; }).find("leave out --surface"), std::string::npos);
 }
 
 } // namespace
