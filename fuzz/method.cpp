@@ -3,6 +3,7 @@
 // or an Error of a documented kind. To be built with sanitizers.
 // Usage: fuzz_method FIRST_SEED COUNT      runs so many, one line for each finding, a table at the end
 //        fuzz_method show SEED             the cloud of a seed as x y z, its options on stderr
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -103,11 +104,14 @@ void on_hang(int) {
 }
 
 void watch(std::uint64_t seed) {
-  constexpr unsigned patience = 120; // seconds; under sanitizers a run takes one
+  constexpr unsigned patience = 120, busy = 10; // seconds of the processor; under sanitizers a run takes one
   running_low = static_cast<std::sig_atomic_t>(seed & 0x7fffffffu);
   running_high = static_cast<std::sig_atomic_t>(seed >> 31 & 0x7fffffffu);
   std::signal(SIGALRM, on_hang);
-  alarm(patience);
+  std::signal(SIGPROF, on_hang);
+  alarm(busy * patience); // a run that waits for ever uses no processor
+  const itimerval timer{{0, 0}, {patience, 0}};
+  setitimer(ITIMER_PROF, &timer, nullptr);
 }
 
 int show(std::uint64_t seed) {

@@ -51,9 +51,9 @@ enum class GlobalSign : std::uint8_t {
 };
 /// Where the vertices of the mesh lie.
 enum class SurfaceKind : std::uint8_t {
-  automatic, ///< fitted where noise was measured, else samples
+  automatic, ///< in the middle of the samples around where noise was measured, else samples
   samples,   ///< at input points
-  fitted     ///< in the middle of the samples around. docs/decisions/0036
+  fitted     ///< fitted wherever the fit itself finds noise. docs/decisions/0036
 };
 enum class Smoothing : std::uint8_t {
   laplacian, ///< §3.6: each vertex to the centroid of its neighbours; shrinks
@@ -127,7 +127,7 @@ struct Options {
   ManifoldRule manifold_rule = ManifoldRule::cheapest;
   KeepComponents components;
   /// Whether vertices move to the middle of the noise (not in the paper).
-  SurfaceKind surface = SurfaceKind::samples;
+  SurfaceKind surface = SurfaceKind::automatic;
   /// Smoothing steps (§3.6); 0: none. Vertices then leave the samples.
   std::uint32_t smooth = 0;
   Smoothing smoothing = Smoothing::laplacian;

@@ -8,6 +8,7 @@
 #include "fit/place_fits.h"
 #include "geometry/mesh_topology.h"
 #include "geometry/nearest.h"
+#include "numerics/quantile.h"
 #include "surface/fans.h"
 
 namespace eigencrust {
@@ -33,9 +34,14 @@ constexpr double least_misfit = 1e-3;
 constexpr double same_side = 0.5;
 // Widths are in units of the noise, or of so many spacings where that is more: fewer samples make no fit.
 constexpr double least_unit_in_spacings = 0.7;
-// Nothing moves farther than the bound of the noise and so many spacings, which are those around or the typical ones of
-// the cloud, whichever is less: where samples are rare none of them is noise.
-constexpr double farthest_in_spacings = 1;
+// The noise of a place is no more than that of most of the places around, which are those of a cluster so many levels
+// up.
+constexpr std::size_t levels_of_usual_noise = 3;
+constexpr double quartile = 0.25;
+// Of noise alone, measured by narrow fits with six degrees of freedom, it is so much of the mean (chi-squared).
+constexpr double quartile_of_noise = 0.58;
+// What fits to clean samples leave of their shape.
+constexpr double curvature_in_spacings = 0.05;
 
 std::vector<std::uint32_t> pieces_of(const Surface& surface) {
   DisjointSets sets(surface.mesh.vertices.size());
@@ -131,7 +137,9 @@ class SurfaceFit {
         threads_(threads),
         fans_(fans),
         position_(smoothed(surface.mesh.vertices, fans, threads)),
-        normal_(averaged_normals(position_, fans, threads)) {
+        normal_(averaged_normals(position_, fans, threads)),
+        trust_(position_.size(), 0),
+        sigma_(position_.size(), 0) {
     for (std::size_t v = 0; v < position_.size(); ++v)
       if (noise_[v] < 0) position_[v] = surface.mesh.vertices[v]; // it stays, but says which side its sample is on
   }
@@ -140,13 +148,15 @@ class SurfaceFit {
     ClusterPyramid clusters(fans_, position_, normal_, samples_, vertices_of_samples(), threads_);
     for (const FitEffort& effort : efforts) {
       const FitPlaces places = make_places(clusters);
-      if (width_.empty()) width_ = chosen_widths(places, clusters, threads_);
-      move(clusters, fits_of_widths(places, clusters, width_, effort, threads_));
+      if (chosen_.width.empty()) chosen_ = chosen_widths(places, clusters, threads_);
+      move(clusters, fits_of_widths(places, clusters, chosen_.width, effort, threads_));
       clusters.set_normals(normal_);
     }
     std::vector<Vec3> result = surface_.mesh.vertices;
     for (std::size_t v = 0; v < result.size(); ++v)
-      if (noise_[v] >= 0) result[v] = limited(result[v], position_[v], farthest(v));
+      if (noise_[v] >= 0)
+        result[v] = limited(result[v], result[v] + trust_[v] * (position_[v] - result[v]),
+                            static_cast<double>(noise_bound) * sigma_[v]);
     return result;
   }
 
@@ -155,10 +165,6 @@ class SurfaceFit {
     return static_cast<double>(model_.spacing[surface_.sample_of[v]]);
   }
   [[nodiscard]] double noise_at(std::size_t v) const { return std::max(0.0, static_cast<double>(noise_[v])); }
-  [[nodiscard]] double farthest(std::size_t v) const {
-    return static_cast<double>(noise_bound) * noise_at(v) +
-           farthest_in_spacings * std::min(spacing_at(v), model_.typical_spacing);
-  }
 
   /// Samples are on the side of the vertex next to them; those farther off than noise explains are on none.
   [[nodiscard]] std::vector<std::uint32_t> vertices_of_samples() const {
@@ -204,19 +210,41 @@ class SurfaceFit {
     return places;
   }
 
+  /// Deviation of the noise of each cluster of a coarse level, by the lower quartile of the narrowest fits of its
+  /// places and of those beside it: fits across edges take shape for noise, and in a small body they may be the
+  /// majority.
+  [[nodiscard]] std::vector<double> usual_noise(const ClusterPyramid& clusters, std::span<const double> variance,
+                                                std::size_t level) const {
+    const std::size_t n = clusters[level].cluster.size();
+    const auto of_places = build_rows<double>(n, [&](auto&& visit) {
+      for (std::uint32_t p = 0; p < variance.size(); ++p)
+        if (variance[p] >= 0) visit(clusters.ancestor(FitPlaces::level, p, level), variance[p]);
+    });
+    std::vector<double> result(n, 0);
+    for_each_index(threads_, n, [&](std::size_t c) {
+      std::vector<double> around(of_places[c].begin(), of_places[c].end());
+      for (const std::uint32_t beside : clusters[level].neighbours[c])
+        around.insert(around.end(), of_places[beside].begin(), of_places[beside].end());
+      if (!around.empty()) result[c] = std::sqrt(quantile(around, quartile) / quartile_of_noise);
+    });
+    return result;
+  }
+
   /// Each vertex onto the mean of the fits around it.
   void move(const ClusterPyramid& clusters, const PlaceFits& fits) {
     const std::vector<std::uint32_t>& place_of = clusters[0].parent;
     const ClusterLevel &places = clusters[FitPlaces::level], &wider = clusters[FitPlaces::level + 1];
+    const std::size_t coarse = std::min(FitPlaces::level + levels_of_usual_noise, clusters.levels() - 1);
+    const std::vector<double> usual = usual_noise(clusters, chosen_.noise_variance, coarse);
     for_each_index(
         threads_, position_.size(),
         [&](std::size_t v) {
           if (noise_[v] < 0 || !(squared_norm(normal_[v]) > 0)) return;
           const std::uint32_t own = place_of[v];
-          double offset = 0, total = 0;
+          double offset = 0, total = 0, squares = 0, noise = 0, error = 0;
           Vec3 normal;
           const double unit = std::max(noise_at(v), least_unit_in_spacings * spacing_at(v));
-          const double radius = blend_reach * width_[own] * unit;
+          const double radius = blend_reach * chosen_.width[own] * unit;
           const auto take = [&](std::uint32_t p) {
             const LocalQuadric& fit = fits.fit[p];
             if (!(fit.variance > 0) || !(dot(fit.normal, normal_[v]) > same_side)) return;
@@ -225,7 +253,11 @@ class SurfaceFit {
             // Fits across an edge fit badly: they leave the word to those beside it.
             const double misfit = fit.noise_variance + least_misfit * unit * unit;
             const double w = nearness * nearness / (fit.variance * misfit * misfit);
-            offset += w * fit.offset(position_[v], normal_[v]);
+            const double ahead = fit.offset(position_[v], normal_[v]);
+            offset += w * ahead;
+            squares += w * ahead * ahead;
+            noise += w * fit.noise_variance;
+            error += w * fit.noise_variance * fit.variance;
             normal = normal + w * fit.normal_at(position_[v]);
             total += w;
           };
@@ -238,6 +270,13 @@ class SurfaceFit {
           }
           if (!(total > 0)) return;
           position_[v] = position_[v] + (offset / total) * normal_[v];
+          // How far the fits differ shows how far off they are where the shape is finer or sharper than them.
+          const double apart = squares / total - offset / total * offset / total;
+          const double usual_here = usual[clusters.ancestor(FitPlaces::level, own, coarse)],
+                       curvature = curvature_in_spacings * spacing_at(v);
+          const double variance = std::min(noise / total, usual_here * usual_here) - curvature * curvature;
+          sigma_[v] = std::sqrt(std::max(0.0, variance));
+          trust_[v] = variance > 0 ? variance / (variance + std::max(0.0, apart - error / total)) : 0;
           if (const double length = norm(normal); length > 0) normal_[v] = (1 / length) * normal;
         },
         costly_block);
@@ -250,7 +289,9 @@ class SurfaceFit {
   const Threads& threads_;
   const SurfaceFans& fans_;
   std::vector<Vec3> position_, normal_; ///< of each vertex
-  std::vector<double> width_;           ///< of each place, in its units
+  std::vector<double> trust_; ///< in the fit, the rest is the sample's; 1: its error is nothing beside the noise
+  std::vector<double> sigma_; ///< of the noise that the fits find
+  ChosenWidths chosen_;
 };
 
 } // namespace

@@ -107,7 +107,9 @@ class PlaceFitter {
       fits_.emplace_back(origin, normal, radius(k));
     // Where the width ends samples are still as thick as in the middle.
     const double reach = std::hypot(radius(fits_.size() - 1), static_cast<double>(noise_bound) * places_.noise[p]);
-    for (const std::uint32_t c : around_.find(samples_, l, cluster_of(p, l + 1), origin, normal, reach))
+    for (const std::uint32_t c :
+         around_.find(samples_, l, samples_.ancestor(FitPlaces::level, static_cast<std::uint32_t>(p), l + 1), origin,
+                      normal, reach))
       for (QuadricFit& fit : fits_) fit.add(samples_[l].cluster[c]);
     solved_.clear();
     for (const QuadricFit& fit : fits_) solved_.push_back(fit.solve(most_noise(p)));
@@ -126,13 +128,6 @@ class PlaceFitter {
     for (; clusters > enough_ && l + 2 < samples_.levels(); clusters /= 4) ++l;
     return l;
   }
-  /// \param level that of the places or a coarser one
-  [[nodiscard]] std::uint32_t cluster_of(std::size_t p, std::size_t level) const {
-    auto c = static_cast<std::uint32_t>(p);
-    for (std::size_t l = FitPlaces::level; l < level; ++l) c = samples_[l].parent[c];
-    return c;
-  }
-
   const FitPlaces& places_;
   const ClusterPyramid& samples_;
   double enough_;
@@ -163,7 +158,7 @@ class WidthChoice {
                      (p % in_little_noise == 0 || places.noise[p] > little_noise * places.spacing[p]);
   }
 
-  std::vector<double> run() {
+  ChosenWidths run() {
     for (std::size_t k = 0; k < widths.size(); ++k) {
       fit(k);
       if (k == 0) find_noise();
@@ -172,7 +167,7 @@ class WidthChoice {
     for (std::size_t p = 0; p < choice_.size(); ++p) choice_[p] = least(p);
     for (int round = 0; round < averaging_rounds; ++round) choice_ = pooled(choice_);
     for (double& c : choice_) c = c < 0 ? 0 : widths[0] * std::exp2(c / 2);
-    return std::move(choice_);
+    return {std::move(choice_), std::move(narrowest_)};
   }
 
  private:
@@ -201,6 +196,7 @@ class WidthChoice {
 
   /// The narrowest fits know the noise best. The model knows too little of it in thin parts, and is not asked.
   void find_noise() {
+    narrowest_ = noise_;
     const std::vector<double> mean = pooled(noise_);
     for (std::size_t p = 0; p < mean.size(); ++p)
       if (mean[p] >= 0) noise_[p] = mean[p];
@@ -277,6 +273,7 @@ class WidthChoice {
   const Threads& threads_;
   std::vector<std::uint8_t> running_; ///< places whose risk may still fall
   std::vector<double> noise_;         ///< variance; negative: unknown
+  std::vector<double> narrowest_;     ///< the same, of each place's narrowest fit alone
   std::vector<double> bias_;          ///< square, of the level before or of narrower ones
   std::vector<double> choice_;
   std::vector<std::uint8_t> fitted_; ///< the number of widths that were
@@ -285,7 +282,7 @@ class WidthChoice {
 
 } // namespace
 
-std::vector<double> chosen_widths(const FitPlaces& places, const ClusterPyramid& samples, const Threads& threads) {
+ChosenWidths chosen_widths(const FitPlaces& places, const ClusterPyramid& samples, const Threads& threads) {
   return WidthChoice(places, samples, threads).run();
 }
 

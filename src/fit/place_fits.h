@@ -22,10 +22,14 @@ struct FitPlaces {
   std::vector<std::uint8_t> wanted;   ///< places that need a fit
 };
 
-/// For each wanted place the width, in its units, that suits it: fits grow as long as they agree, until one whose
-/// interval of confidence has nothing in common with those before (Goldenshluger and Nemirovski 1997; Katkovnik 1999).
-/// The choice is then averaged over the places around, for a single one hangs on the noise. 0: no fit is possible.
-std::vector<double> chosen_widths(const FitPlaces& places, const ClusterPyramid& samples, const Threads& threads);
+struct ChosenWidths {
+  std::vector<double> width;          ///< of each place, in its units; 0: no fit is possible
+  std::vector<double> noise_variance; ///< of the samples about the narrowest fit; length²; negative: unknown
+};
+
+/// For each wanted place the width of least risk, which is the square of the bias and the variance together; averaged
+/// over the places around, for a single one hangs on the noise.
+ChosenWidths chosen_widths(const FitPlaces& places, const ClusterPyramid& samples, const Threads& threads);
 
 struct PlaceFits {
   std::vector<LocalQuadric> fit; ///< of each place; variance = 0: there is none

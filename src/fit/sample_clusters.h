@@ -50,6 +50,11 @@ class ClusterPyramid {
   static constexpr std::size_t most_levels = 6;
   [[nodiscard]] std::size_t levels() const { return levels_.size(); }
   [[nodiscard]] const ClusterLevel& operator[](std::size_t level) const { return levels_[level]; }
+  /// \param level that of cluster c \param above as coarse or coarser
+  [[nodiscard]] std::uint32_t ancestor(std::size_t level, std::uint32_t c, std::size_t above) const {
+    for (; level < above; ++level) c = levels_[level].parent[c];
+    return c;
+  }
   /// New normals of the vertices; those of the clusters are the sums of their parts'.
   void set_normals(std::vector<Vec3> normal);
 

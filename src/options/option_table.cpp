@@ -148,8 +148,8 @@ constexpr std::array<OptionEntry, 27> table{{
      [](Options& o, const std::string& text) { o.trim = parse_flag(text); },
      [](const Options& o) { return flag_text(o.trim); }},
     {"surface", Kind::choice, Group::smoothing, "auto|samples|fitted",
-     "Vertices: samples (input points), fitted (moved to the middle of the noise), auto (fitted where noise was "
-     "measured)",
+     "Vertices: auto (moved to the middle of the noise where some was measured), fitted (also where the fit itself "
+     "finds some), samples (input points)",
      [](Options& o, const std::string& text) { o.surface = parse_surface_kind(text); },
      [](const Options& o) { return to_string(o.surface); }},
     {"smooth", Kind::count, Group::smoothing, "N", "Smoothing steps; vertices then leave the samples",

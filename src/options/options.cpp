@@ -82,6 +82,7 @@ Options Options::of(Preset preset) {
     options.weights = Weights::paper;
     options.manifold_rule = ManifoldRule::paper;
     options.components.kind = KeepComponents::Kind::all;
+    options.surface = SurfaceKind::samples;
   }
   return options;
 }

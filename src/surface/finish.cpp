@@ -31,8 +31,10 @@ bool fit(Surface& surface, const SurfaceFans& fans, const Scene& scene, SurfaceK
   const std::vector<float> noise = noise_to_fit(surface, fans, model, kind, threads);
   if (noise.empty()) return false;
   const auto samples = std::span(t.positions.raw()).first(t.sample_count);
-  surface.mesh.vertices = fitted_vertices(surface, fans, samples, model, noise, threads);
-  return true;
+  std::vector<Vec3> fitted = fitted_vertices(surface, fans, samples, model, noise, threads);
+  const bool moved = fitted != surface.mesh.vertices;
+  surface.mesh.vertices = std::move(fitted);
+  return moved;
 }
 
 /// How far the vertices are from the input points that they were.

@@ -135,14 +135,14 @@ error_of() {
 
 test_noise_moves_vertices_and_that_is_told() {
   noisy_sphere >cloud.xyz
-  expect 0 cloud.xyz -o fitted.obj --report report.json --surface auto
+  expect 0 cloud.xyz -o fitted.obj --report report.json
   grep -qE 'vertices moved from their samples: median 0\.0[0-9]+, 99 % below 0\.[0-9]+' out || die "not told: $(cat out)"
   equal surface "$(value report.json /options/surface)" auto
   local vertices
   vertices=$(value report.json /mesh/vertices)
   equal "the vertices moved" "$(value report.json /moved/vertices)" "$vertices"
   equal crossings "$(value report.json /mesh/self_intersections)" 0
-  expect 0 cloud.xyz -o samples.obj --report report.json
+  expect 0 cloud.xyz -o samples.obj --report report.json --surface samples
   grep -q 'moved' out && die "told without reason"
   equal moved "$(value report.json /moved)" null
   equal vertices "$(value report.json /mesh/vertices)" "$vertices"
@@ -152,11 +152,14 @@ test_noise_moves_vertices_and_that_is_told() {
 
 test_without_noise_vertices_are_the_samples() {
   sphere 2000 >cloud.xyz
-  expect 0 cloud.xyz -o auto.ply --report report.json --surface auto
+  expect 0 cloud.xyz -o auto.ply --report report.json
   equal moved "$(value report.json /moved)" null
   expect 0 cloud.xyz -o samples.ply --surface samples
   same auto.ply samples.ply
   expect 0 cloud.xyz -o fitted.ply --surface fitted
+  same fitted.ply samples.ply
+  noisy_sphere >cloud.xyz
+  expect 0 cloud.xyz -o fitted.ply --surface fitted --noise off
   grep -q 'vertices moved' out || die "fitted moves nothing"
 }
 

@@ -103,7 +103,9 @@ TEST(Invariance, AMillionUnitsAwayWithASpacingOfAThousandth) {
 
 TEST(Invariance, VerticesAreRowsOfTheInputBitForBit) {
   const Points points = clouds::moved(noisy_cloud(), {1e3 / 3, -1e3 / 7, 0.1});
-  const Result result = reconstructed(points);
+  Options options;
+  options.surface = SurfaceKind::samples;
+  const Result result = reconstruct(clouds::cloud_of(points), options);
   const Attribute* source = find_attribute(result.mesh.vertex_attributes, "source_index");
   ASSERT_NE(source, nullptr);
   ASSERT_EQ(source->rows(), result.mesh.vertices.size());

@@ -58,7 +58,7 @@ PointCloud kinect(const std::filesystem::path& file) {
   return cloud;
 }
 
-/// Every triangle has been seen by the sensors of its vertices and has no long edge, measured from the mesh alone.
+/// Every triangle, between the samples that are its vertices, has been seen by their sensors and has no long edge.
 void expect_seen(const Result& result, const PointCloud& cloud) {
   const Samples samples = prepare_samples(cloud.points, Threads(2));
   const SampleModel model = sample_model(samples.positions.raw(), std::nullopt, Threads(2));
@@ -76,7 +76,7 @@ void expect_seen(const Result& result, const PointCloud& cloud) {
   for (const auto& triangle : result.mesh.triangles) {
     std::array<Vec3, 3> p;
     double longest = 0, local = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < 3; ++k) p[k] = result.mesh.vertices[triangle[k]];
+    for (std::size_t k = 0; k < 3; ++k) p[k] = cloud.points[row[triangle[k]]];
     const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
     for (std::size_t k = 0; k < 3; ++k) {
       longest = std::max(longest, distance(p[k], p[(k + 1) % 3]));
