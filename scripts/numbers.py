@@ -19,7 +19,7 @@ import os
 import re
 import sys
 
-CHAPTERS = ("samples", "tetrahedra", "evidence", "poles", "settle", "repair", "surface", "points", "stages",
+CHAPTERS = ("samples", "tetrahedra", "evidence", "poles", "settle", "repair", "surface", "fit", "points", "stages",
             "sample_measures.h", "sample_measures.cpp", "sample_rows.h", "sample_rows.cpp")
 
 TOKEN = re.compile(

@@ -44,6 +44,7 @@ struct PartitionReport {
 struct MovedReport {
   std::uint64_t vertices = 0;          ///< that are elsewhere
   double median = 0, q99 = 0, max = 0; ///< of the distances of these, in the unit of the input
+  std::uint64_t crossing = 0;          ///< pairs of triangles that cross all the same
 };
 
 struct Report {

@@ -155,8 +155,7 @@ class SurfaceFit {
     std::vector<Vec3> result = surface_.mesh.vertices;
     for (std::size_t v = 0; v < result.size(); ++v)
       if (noise_[v] >= 0)
-        result[v] = limited(result[v], result[v] + trust_[v] * (position_[v] - result[v]),
-                            static_cast<double>(noise_bound) * sigma_[v]);
+        result[v] = limited(result[v], result[v] + trust_[v] * (position_[v] - result[v]), farthest(v));
     return result;
   }
 
@@ -165,6 +164,11 @@ class SurfaceFit {
     return static_cast<double>(model_.spacing[surface_.sample_of[v]]);
   }
   [[nodiscard]] double noise_at(std::size_t v) const { return std::max(0.0, static_cast<double>(noise_[v])); }
+  /// What noise explains, and where the fits agree a spacing, which is that around or the typical one of the cloud,
+  /// whichever is less: where samples are rare none of them is noise.
+  [[nodiscard]] double farthest(std::size_t v) const {
+    return static_cast<double>(noise_bound) * sigma_[v] + trust_[v] * std::min(spacing_at(v), model_.typical_spacing);
+  }
 
   /// Samples are on the side of the vertex next to them; those farther off than noise explains are on none.
   [[nodiscard]] std::vector<std::uint32_t> vertices_of_samples() const {

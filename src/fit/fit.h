@@ -25,8 +25,8 @@ std::vector<float> noise_to_fit(const Surface& surface, const SurfaceFans& fans,
 /// The places of all vertices after those that `noise` is given for have moved to the middle of the samples around.
 /// They start from where a few steps of smoothing leave them, so that triangles are in order, and then move along the
 /// normal of a local fit as wide as the samples allow. None moves farther than 3 deviations of the noise
-/// that the fits find, and less the more they differ. \param samples distinct \param noise of each vertex; negative: it
-/// stays
+/// that the fits find and, where they agree, one spacing. \param samples distinct \param noise of each vertex;
+/// negative: it stays
 std::vector<Vec3> fitted_vertices(const Surface& surface, const SurfaceFans& fans, std::span<const Vec3> samples,
                                   const SampleModel& model, std::span<const float> noise, const Threads& threads);
 

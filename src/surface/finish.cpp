@@ -38,13 +38,13 @@ bool fit(Surface& surface, const SurfaceFans& fans, const Scene& scene, SurfaceK
 }
 
 /// How far the vertices are from the input points that they were.
-MovedReport distances_moved(std::span<const Vec3> before, std::span<const Vec3> after) {
+MovedReport moved_report(std::span<const Vec3> before, std::span<const Vec3> after, std::uint64_t crossing) {
   std::vector<double> distances;
   for (std::size_t v = 0; v < before.size(); ++v)
     if (before[v] != after[v]) distances.push_back(distance(before[v], after[v]));
-  if (distances.empty()) return {};
+  if (distances.empty()) return {0, 0, 0, 0, crossing};
   return {distances.size(), median(distances), quantile(distances, 0.99),
-          *std::max_element(distances.begin(), distances.end())};
+          *std::max_element(distances.begin(), distances.end()), crossing};
 }
 
 /// No crossings, and no piece that turned over: pieces that did are back at their rows, and what crosses these moves
@@ -143,8 +143,13 @@ bool move_vertices(Surface& surface, const PointCloud& cloud, const Scene& scene
     });
   else
     to_input_coordinates(surface, t, rows);
-  run.stage("crossings", [&] { return settle_moved(rows, scene.measures.model, *fans, surface.mesh, threads); });
-  run.report().moved = distances_moved(rows, surface.mesh.vertices);
+  std::uint64_t crossing = 0;
+  run.stage("crossings", [&] {
+    const UncrossCounts counts = settle_moved(rows, scene.measures.model, *fans, surface.mesh, threads);
+    crossing = counts.left;
+    return counts;
+  });
+  run.report().moved = moved_report(rows, surface.mesh.vertices, crossing);
   return true;
 }
 
@@ -165,9 +170,12 @@ void check(const TriangleMesh& mesh, const PointCloud& cloud, const Scene& scene
            const Context& context) {
   const auto& [options, run, threads] = context;
   run.stage("validate", [&] {
-    // Faces of one Delaunay tetrahedralization do not cross, unless they were moved or rounded (docs/guarantees.md).
-    const bool cannot_cross = checks.self_intersections && !run.report().moved && !options.base &&
-                              is_exact_translation(scene.tetrahedralization, cloud, threads);
+    // Faces of one Delaunay tetrahedralization do not cross, unless they were moved, and then tested, or rounded
+    // (docs/guarantees.md).
+    const std::optional<MovedReport>& moved = run.report().moved;
+    const bool cannot_cross =
+        checks.self_intersections && !options.base &&
+        (moved ? moved->crossing == 0 : is_exact_translation(scene.tetrahedralization, cloud, threads));
     ValidateOptions needed = checks;
     needed.self_intersections = checks.self_intersections && !cannot_cross;
     needed.merge_equal_vertices = checks.merge_equal_vertices && !cannot_cross; // samples differ, so vertices do
