@@ -190,6 +190,7 @@ class Planner {
   void choose_names() {
     if (!options_.columns.empty()) {
       plan_.names = complete_names(options_.columns, plan_.width);
+      doubt_given_columns();
       return;
     }
     if (known_preface_ && header_.empty()) {
@@ -256,6 +257,16 @@ class Planner {
     for (const TextLine& line : beginning_.lines)
       if (line.number >= plan_.first_row && is_row(line.text)) rows.push_back(line);
     return rows;
+  }
+
+  /// Who types x,y,z for a table whose rows are numbered forgot that column.
+  void doubt_given_columns() {
+    if (!is_axis(plan_.names.front(), 'x') || shape_.numeric.size() != plan_.width ||
+        !first_column_counts(rows_of_beginning(), shape_))
+      return;
+    notes_.notes.push_back(
+        "column 1, x by --columns, counts like numbers of the points; to leave it out type --columns " +
+        columns_to_type({}, shape_.numeric, 1));
   }
 
   void doubt_columns() {

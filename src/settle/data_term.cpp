@@ -34,10 +34,13 @@ void DataTerms::add_ties(SampleIndex s, TetrahedronIndex i, const Vec3& centre, 
   if (label(first) != Label::outside || label(second) != Label::inside) return;
   const Vec3 way = centre - t_.positions[s];
   const double length = norm(way), both = tie * trust(first) * trust(second);
+  const auto towards = [&](PoleIndex p) { return poles_.sphere[p].centre - t_.positions[s]; };
+  // Where the coordinates are huge a centre may round onto its sample: it has no direction then.
+  if (!(length > 0) || !(norm(towards(first)) > 0) || !(norm(towards(second)) > 0)) return;
   const auto weight = [&](PoleIndex p) {
-    const Vec3 towards = poles_.sphere[p].centre - t_.positions[s];
+    const Vec3 to = towards(p);
     // The shape of the pole graph's weights between tangent spheres (§3.1).
-    return std::exp(steepness * std::clamp(dot(towards, way) / (norm(towards) * length), -1.0, 1.0));
+    return std::exp(steepness * std::clamp(dot(to, way) / (norm(to) * length), -1.0, 1.0));
   };
   sum.outside += static_cast<float>(both * weight(first));
   sum.inside += static_cast<float>(both * weight(second));

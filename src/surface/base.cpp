@@ -12,6 +12,7 @@
 #include "geometry/mesh_topology.h"
 #include "geometry/tetrahedron.h"
 #include "numerics/quantile.h"
+#include "surface/components.h"
 #include "surface/trim.h"
 
 namespace eigencrust {
@@ -52,6 +53,32 @@ void drop_upright_at_rim(const Vec3& along, Surface& surface) {
     marked[i] = std::fabs(dot(normal, along)) <= upright * norm(normal);
   }
   trim(marked_at_rim(surface.mesh, marked), surface);
+}
+
+/// Cavities behind the surface: nobody saw into them from the front, and the base need not reach around them.
+void drop_cavities(Surface& surface) {
+  const TriangleMesh& mesh = surface.mesh;
+  DisjointSets pieces(mesh.vertices.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    pieces.unite(a, b);
+    pieces.unite(b, c);
+  }
+  std::vector<std::uint8_t> has_rim(mesh.vertices.size(), 0);
+  const std::vector<std::uint32_t> next = along_rims(mesh);
+  for (std::uint32_t v = 0; v < next.size(); ++v)
+    if (next[v] != no_index) has_rim[pieces.find(v)] = 1;
+  std::vector<double> volume(mesh.vertices.size(), 0);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::uint32_t piece = pieces.find(a);
+    const Vec3& origin = mesh.vertices[piece];
+    volume[piece] += dot(mesh.vertices[a] - origin, cross(mesh.vertices[b] - origin, mesh.vertices[c] - origin));
+  }
+  std::vector<std::uint8_t> gone(mesh.triangles.size());
+  for (std::size_t i = 0; i < gone.size(); ++i) {
+    const std::uint32_t piece = pieces.find(mesh.triangles[i][0]);
+    gone[i] = !has_rim[piece] && volume[piece] < 0;
+  }
+  drop_triangles(gone, surface);
 }
 
 /// Coordinates across and along the front: seen from there, u runs to the right and v upwards.
@@ -175,6 +202,7 @@ void expect_resolved(const TriangleMesh& mesh, const Vec3& origin, double gap_be
 Base close_with_base(Axis front, const SampleModel& model, const Vec3& origin, Surface& surface) {
   expect_resolved(surface.mesh, origin, gap * model.typical_spacing);
   drop_upright_at_rim(direction_of(front), surface);
+  drop_cavities(surface);
   TriangleMesh& mesh = surface.mesh;
   const std::vector<std::uint32_t> rim = only_rim(mesh);
   const Frame frame(front);

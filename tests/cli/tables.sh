@@ -30,6 +30,8 @@ test_messages_name_the_columns_to_type() {
     expect_error 3 "--columns" "$name" -o mesh.ply
     expect 0 info "$name" --columns "$(typed)" --json
   done
+  expect 0 info numbered.txt --columns x,y,z # who insists is told
+  grep -qF "column 1, x by --columns, counts" out err || die "the numbers of the points are not told"
   expect_error 3 "--columns a,x,y,z" named.txt -o mesh.ply
   expect 0 info named.txt --columns "$(typed)" --json
   equal z "$(value out /bounds/max/2 | cut -c 1-3)" 349

@@ -141,6 +141,25 @@ TEST(OrdinaryParts, NoiseMeasuredIsReported) {
   EXPECT_NEAR(reported / 1.2, 0.05 / std::sqrt(3.0), 0.01); // deviation of even noise in ±0.05
 }
 
+// A cluster whose samples are apart by the last digit of their coordinates, since a stray far away keeps the origin
+// from it: centres of circumspheres round onto samples.
+TEST(OrdinaryParts, TheEnergyIsANumberWhereCentresRoundOntoSamples) {
+  Points points{{-5.6661873516763122e28, -7.4814378972478658e27, -4.81327006960015e27}};
+  const Points apart{{-1, 0, 0}, {-1, 1, -2}, {0, -2, 1}, {0, -1, 0}, {0, 0, 1},   {0, 0, 0},
+                     {0, 0, -1}, {0, 1, 0},   {0, 1, -2}, {1, -1, 0}, {1, -1, -1}, {1, 0, 0}};
+  for (const Vec3& p : apart) points.push_back(Vec3{5903789242941675, 6136668703515533, -5242763564974025} + p);
+  Options options;
+  options.noise = {LengthChoice::Kind::length, 0.003};
+  options.facade = Axis::minus_z;
+  const Result result = reconstruct(clouds::cloud_of(points), options);
+  double energy = std::numeric_limits<double>::quiet_NaN();
+  for (const StageReport& stage : result.report.stages)
+    if (stage.name == "minimum_cut")
+      for (const auto& [name, value] : stage.counts)
+        if (name == "energy") energy = value;
+  EXPECT_TRUE(std::isfinite(energy));
+}
+
 TEST(OrdinaryParts, NoiseFarAboveTheSpacingGetsAWarning) {
   // In spacings of 0.025: deviations of 3 and of 0.7.
   const auto warns = [](double jitter) {
