@@ -71,7 +71,10 @@ int soak_memory(std::uint32_t runs, std::uint32_t points) {
       ++without;
     }
     if (i == warm) early = resident_kilobytes();
-    if (i % 1000 == 0) std::printf("%u runs: %llu kB\n", i, static_cast<unsigned long long>(resident_kilobytes()));
+    if (i % 1000 == 0) {
+      std::printf("%u runs: %llu kB\n", i, static_cast<unsigned long long>(resident_kilobytes()));
+      std::fflush(stdout); // a run that is stopped leaves what it has
+    }
   }
   const std::uint64_t late = resident_kilobytes();
   std::printf("resident after %u runs %llu kB, after %u runs %llu kB; %u runs without a surface\n", warm,
