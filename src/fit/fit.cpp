@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/fit.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -125,6 +126,18 @@ std::vector<float> noise_at_vertices(const Surface& surface, const SurfaceFans& 
   return noise;
 }
 
+/// From the mean of the ways to some planes the way to where they intersect, by least squares: to the edge between two.
+/// \param normals mean of n nᵀ
+Vec3 towards_all(const Vec3& mean, const Eigen::Matrix3d& normals) {
+  // A direction that few of the planes lie across is stretched no more than that.
+  constexpr double least_share = 0.5;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normals);
+  const Eigen::Vector3d way = solver.eigenvectors().transpose() * Eigen::Vector3d(mean.x, mean.y, mean.z);
+  const Eigen::Vector3d all =
+      solver.eigenvectors() * way.cwiseQuotient(solver.eigenvalues().cwiseMax(least_share)).eval();
+  return {all[0], all[1], all[2]};
+}
+
 /// The middle of the noise, from fits at places spread over the surface.
 class SurfaceFit {
  public:
@@ -245,8 +258,9 @@ class SurfaceFit {
         [&](std::size_t v) {
           if (noise_[v] < 0 || !(squared_norm(normal_[v]) > 0)) return;
           const std::uint32_t own = place_of[v];
-          double offset = 0, total = 0, squares = 0, noise = 0, error = 0;
-          Vec3 normal;
+          double total = 0, squares = 0, noise = 0, error = 0;
+          Vec3 way, normal;
+          Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
           const double unit = std::max(noise_at(v), least_unit_in_spacings * spacing_at(v));
           const double radius = blend_reach * chosen_.width[own] * unit;
           const auto take = [&](std::uint32_t p) {
@@ -257,12 +271,16 @@ class SurfaceFit {
             // Fits across an edge fit badly: they leave the word to those beside it.
             const double misfit = fit.noise_variance + least_misfit * unit * unit;
             const double w = nearness * nearness / (fit.variance * misfit * misfit);
-            const double ahead = fit.offset(position_[v], normal_[v]);
-            offset += w * ahead;
+            // Along the normal of the fit: along another one what lies beside an edge would slide beyond it.
+            const Vec3 across = fit.normal_at(position_[v]);
+            const double ahead = fit.offset(position_[v], across);
+            way = way + w * ahead * across;
+            const Eigen::Vector3d n(across.x, across.y, across.z);
+            normals += w * n * n.transpose();
             squares += w * ahead * ahead;
             noise += w * fit.noise_variance;
             error += w * fit.noise_variance * fit.variance;
-            normal = normal + w * fit.normal_at(position_[v]);
+            normal = normal + w * across;
             total += w;
           };
           if (const std::uint32_t above = places.parent[own]; fits.wide[above]) {
@@ -273,9 +291,10 @@ class SurfaceFit {
             for (const std::uint32_t p : places.neighbours[own]) take(p);
           }
           if (!(total > 0)) return;
-          position_[v] = position_[v] + (offset / total) * normal_[v];
+          const Vec3 mean = (1 / total) * way;
+          position_[v] = position_[v] + towards_all(mean, normals / total);
           // How far the fits differ shows how far off they are where the shape is finer or sharper than them.
-          const double apart = squares / total - offset / total * offset / total;
+          const double apart = squares / total - squared_norm(mean);
           const double usual_here = usual[clusters.ancestor(FitPlaces::level, own, coarse)],
                        curvature = curvature_in_spacings * spacing_at(v);
           const double variance = std::min(noise / total, usual_here * usual_here) - curvature * curvature;

@@ -23,8 +23,8 @@ std::vector<float> noise_to_fit(const Surface& surface, const SurfaceFans& fans,
                                 SurfaceKind kind, const Threads& threads);
 
 /// The places of all vertices after those that `noise` is given for have moved to the middle of the samples around.
-/// They start from where a few steps of smoothing leave them, so that triangles are in order, and then move along the
-/// normal of a local fit as wide as the samples allow. None moves farther than 3 deviations of the noise
+/// They start from where a few steps of smoothing leave them, so that triangles are in order, and then move onto
+/// the local fits around, which are as wide as the samples allow. None moves farther than 3 deviations of the noise
 /// that the fits find and, where they agree, one spacing. \param samples distinct \param noise of each vertex;
 /// negative: it stays
 std::vector<Vec3> fitted_vertices(const Surface& surface, const SurfaceFans& fans, std::span<const Vec3> samples,

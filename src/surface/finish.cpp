@@ -52,9 +52,10 @@ MovedReport moved_report(std::span<const Vec3> before, std::span<const Vec3> aft
 UncrossCounts settle_moved(const std::vector<Vec3>& rows, const SampleModel& model, const SurfaceFans& fans,
                            TriangleMesh& mesh, const Threads& threads) {
   UncrossCounts counts = uncross(rows, model.typical_spacing, fans, mesh, threads);
-  for (std::uint64_t pieces = 0;;) {
-    const std::uint64_t before = std::exchange(pieces, take_back_turned(rows, fans, mesh, threads).pieces);
-    if (pieces <= before) return counts; // those that were taken back are found again
+  for (;;) { // a piece that is back does not move any more
+    const std::vector<Vec3> tested = mesh.vertices;
+    take_back_turned(rows, fans, mesh, threads);
+    if (mesh.vertices == tested) return counts;
     const UncrossCounts again = uncross(rows, model.typical_spacing, fans, mesh, threads);
     counts.crossings += again.crossings;
     counts.eased += again.eased;
