@@ -5,8 +5,7 @@ namespace eigencrust::cli {
 namespace {
 
 int add_normals(const Request& request, const std::vector<std::string>& command, const std::string& keep) {
-  Options options = effective_options(request);
-  options.point_results = true;
+  const Options options = options_for_points(request);
   MethodRun run(request, command, OutputKind::cloud);
   run.reconstruct(options);
   for (const auto& [name, axis] : {std::pair{"nx", &Vec3::x}, std::pair{"ny", &Vec3::y}, std::pair{"nz", &Vec3::z}}) {

@@ -5,8 +5,7 @@ namespace eigencrust::cli {
 namespace {
 
 int flag_points(const Request& request, const std::vector<std::string>& command, const std::string& keep) {
-  Options options = effective_options(request);
-  options.point_results = true;
+  const Options options = options_for_points(request);
   MethodRun run(request, command, OutputKind::cloud);
   run.reconstruct(options);
   const std::vector<double> inlier(run.result.inlier.begin(), run.result.inlier.end());

@@ -34,6 +34,13 @@ void add_keep_option(OptionTable& app, std::string& keep) {
   app.add_option("--keep", keep, "Write these rows only: inliers or outliers")->one_of({"inliers", "outliers"});
 }
 
+Options options_for_points(const Request& request) {
+  Options options = effective_options(request);
+  options.point_results = true;
+  options.surface = SurfaceKind::samples;
+  return options;
+}
+
 int write_points(MethodRun& run, const Request& request, const std::string& keep) {
   const Report& report = run.result.report;
   std::vector<std::uint32_t> inliers, others;

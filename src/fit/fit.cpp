@@ -6,8 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include <eigencrust/validate.h>
+
 #include "fit/place_fits.h"
-#include "geometry/mesh_topology.h"
 #include "geometry/nearest.h"
 #include "numerics/quantile.h"
 #include "surface/fans.h"
@@ -43,17 +44,6 @@ constexpr double quartile = 0.25;
 constexpr double quartile_of_noise = 0.58;
 // What fits to clean samples leave of their shape.
 constexpr double curvature_in_spacings = 0.05;
-
-std::vector<std::uint32_t> pieces_of(const Surface& surface) {
-  DisjointSets sets(surface.mesh.vertices.size());
-  for (const auto& [a, b, c] : surface.mesh.triangles) {
-    sets.unite(a, b);
-    sets.unite(b, c);
-  }
-  std::vector<std::uint32_t> piece(surface.mesh.vertices.size());
-  for (std::uint32_t v = 0; v < piece.size(); ++v) piece[v] = sets.find(v);
-  return piece;
-}
 
 /// Laplacian steps, in which vertices may come to lie on one another: nothing but a start. Rims stay.
 std::vector<Vec3> smoothed(std::vector<Vec3> vertices, const SurfaceFans& fans, const Threads& threads) {
@@ -105,8 +95,13 @@ std::vector<float> noise_at_vertices(const Surface& surface, const SurfaceFans& 
     const SampleIndex s = surface.sample_of[v];
     if (model.noise[s] > least_noise_in_spacings * model.spacing[s]) noise[v] = model.noise[s];
   });
-  const std::vector<std::uint32_t> piece = pieces_of(surface);
-  std::vector<std::uint32_t> all(n, 0), with_noise(n, 0);
+  const auto some = [&noise] { return std::any_of(noise.begin(), noise.end(), [](float s) { return s > 0; }); };
+  if (!some()) return noise;
+  std::vector<std::uint32_t> piece(n, 0);
+  const std::vector<std::uint32_t> piece_of = triangle_components(surface.mesh, threads.size());
+  for (std::size_t i = 0; i < piece_of.size(); ++i)
+    for (const std::uint32_t v : surface.mesh.triangles[i]) piece[v] = piece_of[i];
+  std::vector<std::uint32_t> all(piece_of.size(), 0), with_noise(piece_of.size(), 0);
   for (std::size_t v = 0; v < n; ++v) {
     ++all[piece[v]];
     with_noise[piece[v]] += noise[v] > 0;
@@ -114,6 +109,7 @@ std::vector<float> noise_at_vertices(const Surface& surface, const SurfaceFans& 
   for (std::size_t v = 0; v < n; ++v)
     if (static_cast<double>(with_noise[piece[v]]) < least_share_of_piece * static_cast<double>(all[piece[v]]))
       noise[v] = 0;
+  if (!some()) return noise;
   std::vector<float> next(n);
   for (int edge = 0; edge < edges_around; ++edge) {
     for_each_index(threads, n, [&](std::size_t v) {
@@ -131,7 +127,8 @@ std::vector<float> noise_at_vertices(const Surface& surface, const SurfaceFans& 
 Vec3 towards_all(const Vec3& mean, const Eigen::Matrix3d& normals) {
   // A direction that few of the planes lie across is stretched no more than that.
   constexpr double least_share = 0.5;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normals);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(normals); // in closed form: the last digits do not matter
   const Eigen::Vector3d way = solver.eigenvectors().transpose() * Eigen::Vector3d(mean.x, mean.y, mean.z);
   const Eigen::Vector3d all =
       solver.eigenvectors() * way.cwiseQuotient(solver.eigenvalues().cwiseMax(least_share)).eval();
@@ -161,7 +158,10 @@ class SurfaceFit {
     ClusterPyramid clusters(fans_, position_, normal_, samples_, vertices_of_samples(), threads_);
     for (const FitEffort& effort : efforts) {
       const FitPlaces places = make_places(clusters);
-      if (chosen_.width.empty()) chosen_ = chosen_widths(places, clusters, threads_);
+      if (chosen_.width.empty()) {
+        chosen_ = chosen_widths(places, clusters, threads_);
+        find_usual_noise(clusters);
+      }
       move(clusters, fits_of_widths(places, clusters, chosen_.width, effort, threads_));
       clusters.set_normals(normal_);
     }
@@ -230,29 +230,29 @@ class SurfaceFit {
   /// Deviation of the noise of each cluster of a coarse level, by the lower quartile of the narrowest fits of its
   /// places and of those beside it: fits across edges take shape for noise, and in a small body they may be the
   /// majority.
-  [[nodiscard]] std::vector<double> usual_noise(const ClusterPyramid& clusters, std::span<const double> variance,
-                                                std::size_t level) const {
-    const std::size_t n = clusters[level].cluster.size();
+  void find_usual_noise(const ClusterPyramid& clusters) {
+    const std::vector<double>& variance = chosen_.noise_variance;
+    const std::size_t level = coarse(clusters), n = clusters[level].cluster.size();
     const auto of_places = build_rows<double>(n, [&](auto&& visit) {
       for (std::uint32_t p = 0; p < variance.size(); ++p)
         if (variance[p] >= 0) visit(clusters.ancestor(FitPlaces::level, p, level), variance[p]);
     });
-    std::vector<double> result(n, 0);
+    usual_.assign(n, 0);
     for_each_index(threads_, n, [&](std::size_t c) {
       std::vector<double> around(of_places[c].begin(), of_places[c].end());
       for (const std::uint32_t beside : clusters[level].neighbours[c])
         around.insert(around.end(), of_places[beside].begin(), of_places[beside].end());
-      if (!around.empty()) result[c] = std::sqrt(quantile(around, quartile) / quartile_of_noise);
+      if (!around.empty()) usual_[c] = std::sqrt(quantile(around, quartile) / quartile_of_noise);
     });
-    return result;
+  }
+  [[nodiscard]] static std::size_t coarse(const ClusterPyramid& clusters) {
+    return std::min(FitPlaces::level + levels_of_usual_noise, clusters.levels() - 1);
   }
 
-  /// Each vertex onto the mean of the fits around it.
+  /// Each vertex to where the fits around it meet.
   void move(const ClusterPyramid& clusters, const PlaceFits& fits) {
     const std::vector<std::uint32_t>& place_of = clusters[0].parent;
     const ClusterLevel &places = clusters[FitPlaces::level], &wider = clusters[FitPlaces::level + 1];
-    const std::size_t coarse = std::min(FitPlaces::level + levels_of_usual_noise, clusters.levels() - 1);
-    const std::vector<double> usual = usual_noise(clusters, chosen_.noise_variance, coarse);
     for_each_index(
         threads_, position_.size(),
         [&](std::size_t v) {
@@ -295,7 +295,7 @@ class SurfaceFit {
           position_[v] = position_[v] + towards_all(mean, normals / total);
           // How far the fits differ shows how far off they are where the shape is finer or sharper than them.
           const double apart = squares / total - squared_norm(mean);
-          const double usual_here = usual[clusters.ancestor(FitPlaces::level, own, coarse)],
+          const double usual_here = usual_[clusters.ancestor(FitPlaces::level, own, coarse(clusters))],
                        curvature = curvature_in_spacings * spacing_at(v);
           const double variance = std::min(noise / total, usual_here * usual_here) - curvature * curvature;
           sigma_[v] = std::sqrt(std::max(0.0, variance));
@@ -315,6 +315,7 @@ class SurfaceFit {
   std::vector<double> trust_; ///< in the fit, the rest is the sample's; 1: its error is nothing beside the noise
   std::vector<double> sigma_; ///< of the noise that the fits find
   ChosenWidths chosen_;
+  std::vector<double> usual_; ///< deviation of the noise of each coarse cluster
 };
 
 } // namespace

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include <eigencrust/error.h>
+#include <eigencrust/validate.h>
 
 #include "geometry/mesh_topology.h"
 #include "geometry/tetrahedron.h"
@@ -58,26 +59,16 @@ void drop_upright_at_rim(const Vec3& along, Surface& surface) {
 /// Cavities behind the surface: nobody saw into them from the front, and the base need not reach around them.
 void drop_cavities(Surface& surface) {
   const TriangleMesh& mesh = surface.mesh;
-  DisjointSets pieces(mesh.vertices.size());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    pieces.unite(a, b);
-    pieces.unite(b, c);
+  const std::vector<std::uint32_t> piece = triangle_components(mesh), next = along_rims(mesh);
+  std::vector<std::uint8_t> has_rim(piece.size(), 0), gone(piece.size());
+  std::vector<double> volume(piece.size(), 0);
+  const Vec3 origin = mesh.vertices.empty() ? Vec3{} : mesh.vertices.front();
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    const auto& [a, b, c] = mesh.triangles[i];
+    has_rim[piece[i]] |= next[a] != no_index || next[b] != no_index || next[c] != no_index;
+    volume[piece[i]] += dot(mesh.vertices[a] - origin, cross(mesh.vertices[b] - origin, mesh.vertices[c] - origin));
   }
-  std::vector<std::uint8_t> has_rim(mesh.vertices.size(), 0);
-  const std::vector<std::uint32_t> next = along_rims(mesh);
-  for (std::uint32_t v = 0; v < next.size(); ++v)
-    if (next[v] != no_index) has_rim[pieces.find(v)] = 1;
-  std::vector<double> volume(mesh.vertices.size(), 0);
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const std::uint32_t piece = pieces.find(a);
-    const Vec3& origin = mesh.vertices[piece];
-    volume[piece] += dot(mesh.vertices[a] - origin, cross(mesh.vertices[b] - origin, mesh.vertices[c] - origin));
-  }
-  std::vector<std::uint8_t> gone(mesh.triangles.size());
-  for (std::size_t i = 0; i < gone.size(); ++i) {
-    const std::uint32_t piece = pieces.find(mesh.triangles[i][0]);
-    gone[i] = !has_rim[piece] && volume[piece] < 0;
-  }
+  for (std::size_t i = 0; i < piece.size(); ++i) gone[i] = !has_rim[piece[i]] && volume[piece[i]] < 0;
   drop_triangles(gone, surface);
 }
 
