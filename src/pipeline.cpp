@@ -38,6 +38,9 @@ void reconstruct_spectral(const PointCloud& cloud, const Context& context, Resul
   EIGENCRUST_SOUND(surface, scene, labels, context.options);
   // Which rows lie on it, and which way they look
   auto points = point_results(scene, surface, context);
+  // What only labels ask for makes room: the rest looks at samples and surface.
+  scene.stars = {};
+  scene.poles = {};
   // §3.6: smoothing; the vertices get back what the input said of them
   auto mesh = finish(std::move(surface), cloud, scene, context);
   check(mesh, cloud, scene, {.threads = context.options.threads}, context);

@@ -272,8 +272,7 @@ class SurfaceFit {
             const double misfit = fit.noise_variance + least_misfit * unit * unit;
             const double w = nearness * nearness / (fit.variance * misfit * misfit);
             // Along the normal of the fit: along another one what lies beside an edge would slide beyond it.
-            const Vec3 across = fit.normal_at(position_[v]);
-            const double ahead = fit.offset(position_[v], across);
+            const auto [ahead, across] = fit.foot(position_[v]);
             way = way + w * ahead * across;
             const Eigen::Vector3d n(across.x, across.y, across.z);
             normals += w * n * n.transpose();

@@ -12,19 +12,20 @@ Vec3 LocalQuadric::gradient(double x, double y) const {
   return normal - (h[1] + 2 * h[3] * x + h[4] * y) * u - (h[2] + 2 * h[5] * y + h[4] * x) * v;
 }
 
-double LocalQuadric::offset(const Vec3& at, const Vec3& direction) const {
+LocalQuadric::Foot LocalQuadric::foot(const Vec3& at) const {
   const Vec3 d = at - origin;
   const double x = dot(u, d), y = dot(v, d);
   const auto& h = height;
   const double z = h[0] + x * (h[1] + x * h[3] + y * h[4]) + y * (h[2] + y * h[5]);
   const Vec3 slope = gradient(x, y);
-  constexpr double least_cosine = 0.3; // more askew, the foot would be far off
-  return (z - sag - dot(normal, d)) / std::max(least_cosine * norm(slope), dot(slope, direction));
+  const double shorten = 1 / norm(slope);
+  return {shorten * (z - sag - dot(normal, d)), shorten * slope};
 }
 
-Vec3 LocalQuadric::normal_at(const Vec3& at) const {
-  const Vec3 slope = gradient(dot(u, at - origin), dot(v, at - origin));
-  return (1 / norm(slope)) * slope;
+double LocalQuadric::offset(const Vec3& at, const Vec3& direction) const {
+  constexpr double least_cosine = 0.3; // more askew, the foot would be far off
+  const auto [ahead, across] = foot(at);
+  return ahead / std::max(least_cosine, dot(across, direction));
 }
 
 QuadricFit::QuadricFit(const Vec3& origin, const Vec3& normal, double width) {

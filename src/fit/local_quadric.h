@@ -24,10 +24,13 @@ struct LocalQuadric {
   double variance = 0;       ///< of the height without the sag, at the origin, in units of that of a sample
   double noise_variance = 0; ///< of the samples about the fit; length²
 
-  /// How far `at` is from the surface along `direction` (unit), to first order; positive: it lies ahead.
+  struct Foot {
+    double ahead; ///< how far the point is from the surface along its normal, to first order; positive: it lies ahead
+    Vec3 normal;  ///< of the fit there, unit
+  };
+  [[nodiscard]] Foot foot(const Vec3& at) const;
+  /// How far `at` is from the surface along `direction` (unit), to first order.
   [[nodiscard]] double offset(const Vec3& at, const Vec3& direction) const;
-  /// Unit normal of the fit beside `at`.
-  [[nodiscard]] Vec3 normal_at(const Vec3& at) const;
 
  private:
   [[nodiscard]] Vec3 gradient(double x, double y) const;

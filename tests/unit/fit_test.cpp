@@ -62,7 +62,7 @@ TEST(LocalQuadric, FindsAQuadricAndItsNormalInAnyFrame) {
   EXPECT_NEAR(found->offset(at, normal), 0, 1e-7);
   EXPECT_NEAR(found->offset(at - 0.05 * normal, normal), 0.05, 1e-7);
   const Vec3 tangent = surface(0.3 + 1e-6, -0.2) - surface(0.3 - 1e-6, -0.2);
-  EXPECT_NEAR(dot(found->normal_at(at), tangent) / norm(tangent), 0, 1e-6);
+  EXPECT_NEAR(dot(found->foot(at).normal, tangent) / norm(tangent), 0, 1e-6);
 }
 
 TEST(LocalQuadric, TooFewSamplesOrSamplesInARowMakeNoFitOrAHarmlessOne) {
