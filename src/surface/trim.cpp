@@ -7,6 +7,7 @@
 #include <eigencrust/stages.h>
 
 #include "geometry/mesh_topology.h"
+#include "geometry/tetrahedron.h"
 #include "parallel/threads.h"
 #include "samples/scales.h"
 #include "surface/components.h"
@@ -77,6 +78,18 @@ std::size_t mark_smaller_fans(const TriangleMesh& mesh, std::vector<std::uint8_t
   return marked;
 }
 
+/// The tetrahedron with that face, counter-clockwise seen from outside; invalid: there is none.
+TetrahedronIndex tetrahedron_behind(const Tetrahedralization& t, const VertexStars& stars,
+                                    const std::array<SampleIndex, 3>& face) {
+  for (const TetrahedronIndex i : stars[VertexIndex(face[0])])
+    for (const auto& corner : face_opposite)
+      for (std::size_t k = 0; k < corner.size(); ++k) {
+        const auto is = [&](std::size_t j) { return t.tetrahedra[i][corner[(k + j) % 3]] == VertexIndex(face[j]); };
+        if (is(0) && is(1) && is(2)) return i;
+      }
+  return {};
+}
+
 } // namespace
 
 std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& t, const SampleModel& model,
@@ -129,6 +142,22 @@ void trim(std::vector<std::uint8_t> unsupported, Surface& surface) {
     drop_triangles(unsupported, surface);
     unsupported.assign(surface.mesh.triangles.size(), 0);
   } while (mark_smaller_fans(surface.mesh, unsupported) > 0);
+}
+
+void close_smallest_rims(const Tetrahedralization& t, const VertexStars& stars, Surface& surface) {
+  const std::vector<std::uint32_t> next = along_rims(surface.mesh);
+  for (std::uint32_t c = 0; c < next.size(); ++c) {
+    if (next[c] == no_index) continue;
+    const std::uint32_t b = next[c], a = next[b];
+    if (next[a] != c || c > a || c > b) continue;
+    // The new triangle runs the other way round.
+    const std::array<SampleIndex, 3> samples{surface.sample_of[a], surface.sample_of[b], surface.sample_of[c]};
+    const TetrahedronIndex behind = tetrahedron_behind(t, stars, samples);
+    if (!behind.valid()) continue;
+    surface.mesh.triangles.push_back({a, b, c});
+    surface.inside.push_back(behind);
+    surface.support.push_back(0);
+  }
 }
 
 } // namespace eigencrust

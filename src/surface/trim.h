@@ -30,5 +30,8 @@ struct UnsupportedTriangles {
 /// Takes away the triangles marked, and then, at vertices with several fans, all but the largest fan: an oriented
 /// manifold surface stays one, with boundary.
 void trim(std::vector<std::uint8_t> unsupported, Surface& surface);
+/// Rims of three edges, in which no sample is missing, get the triangle between them if it is a face of the
+/// tetrahedralization.
+void close_smallest_rims(const Tetrahedralization& tetrahedralization, const VertexStars& stars, Surface& surface);
 
 } // namespace eigencrust

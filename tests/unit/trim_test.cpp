@@ -166,6 +166,32 @@ TEST(Trim, KeepsTheLargestFan) {
   EXPECT_TRUE(none.mesh.triangles.empty() && none.mesh.vertices.empty());
 }
 
+TEST(Trim, OnlyRimsOfThreeEdgesAreClosed) {
+  Hull hull(clouds::sphere(200));
+  const TriangleMesh whole = hull.surface.mesh;
+  std::vector<std::uint8_t> gone(whole.triangles.size(), 0);
+  gone[7] = 1;
+  const auto beside = [&](std::size_t i) { // two triangles side by side make a rim of four edges
+    std::size_t common = 0;
+    for (const std::uint32_t v : whole.triangles[i])
+      common += static_cast<std::size_t>(std::count(whole.triangles[100].begin(), whole.triangles[100].end(), v));
+    return common == 2;
+  };
+  std::size_t next = 101;
+  while (!beside(next)) ++next;
+  gone[100] = gone[next] = 1;
+  const TetrahedronIndex behind = hull.surface.inside[7];
+  trim(gone, hull.surface);
+  close_smallest_rims(hull.p.t, hull.p.stars, hull.surface);
+  const MeshSummary m = validate(hull.surface.mesh);
+  EXPECT_EQ(m.triangles, whole.triangles.size() - 2);
+  EXPECT_EQ(m.boundary_loops, 1u);
+  EXPECT_EQ(m.boundary_edges, 4u);
+  EXPECT_TRUE(m.manifold() && m.oriented());
+  EXPECT_EQ(hull.surface.inside.back(), behind);
+  EXPECT_EQ(hull.surface.support.size(), m.triangles);
+}
+
 TEST(OneSidedScan, AllLinesWithinSixtyDegreesOfTheirMean) {
   const Prepared p = clouds::prepare(clouds::random_box(40, 9));
   const auto lines_at = [&](double degrees) { // two directions, in turn
