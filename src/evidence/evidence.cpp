@@ -40,18 +40,29 @@ LinesOfSight follow_lines(const PointCloud& cloud, const Scene& scene, const Lab
   return sight;
 }
 
+KnownBeforehand what_is_known(const PointCloud& cloud, const Scene& scene, const Options& options,
+                              const Threads& threads) {
+  KnownBeforehand known;
+  known.surroundings = surroundings_of(cloud, scene, options, threads);
+  known.named = named_labels(scene, known.surroundings, options, threads);
+  if (known.surroundings.kind == SceneKind::facade && cloud.sensor_of.empty()) {
+    const SampleLengths depth = crossing_depths(scene.measures.model, options);
+    known.hidden = std::make_shared<const HiddenCounts>(
+        count_hidden(scene, direction_of(known.surroundings.front), depth, known.named, threads));
+  }
+  return known;
+}
+
 } // namespace
 
 Evidence gather_evidence(const PointCloud& cloud, const Scene& scene, const Context& context) {
   const auto& [options, run, threads] = context;
   Evidence evidence;
-  KnownBeforehand known = run.stage("evidence", [&] {
-    const Surroundings surroundings = surroundings_of(cloud, scene, options, threads);
-    return KnownBeforehand{surroundings, named_labels(scene, surroundings, options, threads)};
-  });
+  KnownBeforehand known = run.stage("evidence", [&] { return what_is_known(cloud, scene, options, threads); });
   evidence.surroundings = known.surroundings;
   evidence.named = std::move(known.named);
   evidence.labels = evidence.named;
+  evidence.hidden = std::move(known.hidden);
   if (cloud.sensor_of.empty()) return evidence;
   LinesOfSight sight =
       run.stage("line_of_sight", [&] { return follow_lines(cloud, scene, evidence.named, options, threads); });

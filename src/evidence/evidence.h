@@ -8,6 +8,7 @@
 
 #include <eigencrust/stages.h>
 
+#include "evidence/hidden.h"
 #include "report/context.h"
 #include "tetrahedra/scene.h"
 
@@ -23,7 +24,8 @@ struct LinesOfSight {
 /// What is known without the lines of sight.
 struct KnownBeforehand {
   Surroundings surroundings;
-  Labels named; ///< from the cube and the user's points
+  Labels named;                               ///< from the cube and the user's points
+  std::shared_ptr<const HiddenCounts> hidden; ///< see Evidence
 };
 
 struct Evidence {
@@ -35,6 +37,8 @@ struct Evidence {
   /// How many lines cross each tetrahedron, how many samples lie right in front of it; see SightLabels. Null likewise.
   std::shared_ptr<const SightLabels> sight;
   std::optional<OneSided> one_sided; ///< the sensors all lie on one side
+  /// Null: no façade, or there are lines of sight, which know better.
+  std::shared_ptr<const HiddenCounts> hidden;
 };
 
 /// The stages evidence and, where sensors are known, line_of_sight.

@@ -17,6 +17,9 @@ constexpr double cost_of_sigma = 0.5;
 // What a line in front costs who is inside, a sample right in front who is outside (log-odds of a line that is true
 // nineteen times in twenty are 3).
 constexpr float cost_of_line = 3, cost_of_sample = 2;
+// What a sample in front costs who is outside, hidden behind a façade: it need not be solid right behind it, so less
+// than what is known of lines.
+constexpr float cost_of_hiding = 1;
 
 } // namespace
 
@@ -63,6 +66,7 @@ void DataTerms::add_heights(TetrahedronIndex i, DataTerm& sum) const {
 }
 
 void DataTerms::add_lines(TetrahedronIndex i, DataTerm& sum) const {
+  if (hidden_) sum.inside += cost_of_hiding * (*hidden_)[i];
   if (!sight_ || sight_->front.empty()) return;
   sum.outside += cost_of_line * sight_->front[i];
   sum.inside += cost_of_sample * sight_->behind[i];

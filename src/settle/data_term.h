@@ -8,6 +8,7 @@
 
 #include <eigencrust/stages.h>
 
+#include "evidence/hidden.h"
 #include "poles/pole_weights.h"
 #include "settle/noise_planes.h"
 
@@ -29,10 +30,17 @@ struct DataTerm {
 /// (none of it is in the paper; docs/decisions/0026).
 class DataTerms {
  public:
-  /// \param isolated samples where it is > 0 say nothing; may be empty \param sight may be null
+  /// \param isolated samples where it is > 0 say nothing; may be empty \param sight, hidden may be null
   DataTerms(const Tetrahedralization& tetrahedralization, const Poles& poles, const PoleLabels& labels,
-            const NoisePlanes& planes, SampleLengthsView isolated, const SightLabels* sight)
-      : t_(tetrahedralization), poles_(poles), labels_(labels), planes_(planes), isolated_(isolated), sight_(sight) {}
+            const NoisePlanes& planes, SampleLengthsView isolated, const SightLabels* sight,
+            const HiddenCounts* hidden = nullptr)
+      : t_(tetrahedralization),
+        poles_(poles),
+        labels_(labels),
+        planes_(planes),
+        isolated_(isolated),
+        sight_(sight),
+        hidden_(hidden) {}
 
   [[nodiscard]] DataTerm operator()(TetrahedronIndex i) const;
 
@@ -49,6 +57,7 @@ class DataTerms {
   const NoisePlanes& planes_;
   SampleLengthsView isolated_;
   const SightLabels* sight_;
+  const HiddenCounts* hidden_;
 };
 
 } // namespace eigencrust

@@ -9,7 +9,8 @@ namespace {
 Energy energy_of(const Scene& scene, const Evidence& evidence, const PoleLabels& poles, const Threads& threads) {
   const Tetrahedralization& t = scene.tetrahedralization;
   const NoisePlanes planes(t, scene.poles, poles.labels, scene.measures.model, threads);
-  const DataTerms data(t, scene.poles, poles, planes, scene.measures.isolated(), evidence.sight.get());
+  const DataTerms data(t, scene.poles, poles, planes, scene.measures.isolated(), evidence.sight.get(),
+                       evidence.hidden.get());
   return make_energy(t, data, evidence.named, threads);
 }
 

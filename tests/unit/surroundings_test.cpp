@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "evidence/surroundings.h"
 
+#include <eigencrust/eigencrust.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -8,6 +9,8 @@
 #include <limits>
 
 #include "clouds.h"
+#include "evidence/hidden.h"
+#include "open_scenes.h"
 
 namespace eigencrust {
 namespace {
@@ -116,6 +119,44 @@ TEST(Surroundings, FollowTheUserFirst) {
   options.facade = Axis::minus_x;
   EXPECT_EQ(surroundings_of(cloud, scene, options, Threads(1)).front, Axis::minus_x);
   EXPECT_EQ(kind(Options::of(Preset::paper)), SceneKind::body);
+}
+
+/// A roof above flat ground, without walls.
+double roof(double x, double y) { return x > 15 && x < 40 && y > 18 && y < 44 ? 30 : 0; }
+
+TEST(Hidden, IsWhatLiesBehindSamplesAndBeforeNone) {
+  const Scene scene = scene_of(heights(60, roof));
+  const Tetrahedralization& t = scene.tetrahedralization;
+  const SampleLengths depth(t.sample_count, 0.5F);
+  const Labels named(t.tetrahedra.size());
+  const HiddenCounts hidden = count_hidden(scene, {0, 0, 1}, depth, named, Threads(2));
+  const HiddenCounts from_below = count_hidden(scene, {0, 0, -1}, depth, named, Threads(1));
+  double under = 0, hiding = 0, free = 0, free_but_hiding = 0; // volumes
+  for (TetrahedronIndex i{0}; i.value < hidden.size(); ++i.value) {
+    if (t.touches_cube(i)) continue;
+    const Vec3 p = clouds::centroid(t, i) + t.origin;
+    const double volume = clouds::volume(t, i);
+    if (p.z < 1 || p.z > 29) continue;
+    if (roof(p.x - 1, p.y - 1) > 0 && roof(p.x + 1, p.y + 1) > 0) {
+      under += volume;
+      if (hidden[i] > 0) hiding += volume;
+      EXPECT_EQ(from_below[i], 0);
+    } else if (roof(p.x - 1, p.y - 1) == 0 && roof(p.x + 1, p.y + 1) == 0) {
+      free += volume;
+      if (hidden[i] > 0) free_but_hiding += volume;
+    }
+  }
+  EXPECT_GT(hiding, 0.9 * under);          // slivers between two lines are crossed by none
+  EXPECT_LT(free_but_hiding, 0.05 * free); // and some lean out from below the roof
+}
+
+TEST(Hidden, HousesStandOnWhatTheirRoofsHide) {
+  const PointCloud cloud = bench::houses_from_the_air(0.5, 0.02, 1, 2).cloud;
+  Options options;
+  options.facade = Axis::plus_z;
+  const Result result = reconstruct(cloud, options);
+  EXPECT_GT(result.mesh.vertices.size(), 97 * cloud.points.size() / 100);
+  EXPECT_EQ(result.report.mesh.boundary_loops, 1u);
 }
 
 } // namespace
