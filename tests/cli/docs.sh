@@ -86,3 +86,47 @@ test_every_option_of_the_docs_exists() {
     grep -qE -- "$name([^a-z-]|\$)" help || die "docs/parameters.md speaks of $name, which no verb knows"
   done
 }
+
+# walk PAGE: all commands of the walkthrough, as they stand there, on the bundled scan, thinned.
+walk() {
+  local page=$repository/docs/walkthroughs/$1.md
+  [ -f "$page" ] || skip "docs/walkthroughs is not here"
+  expect 0 outliers "$repository/examples/teapot_scan.ply" -o scan.ply --thin 0.04
+  awk '/^```sh$/ { on = 1; next } /^```$/ { on = 0 } on' "$page" >commands
+  [ "$(grep -c '^eigencrust ' commands)" -ge "$2" ] || die "fewer than $2 commands in $page"
+  mkdir bin
+  ln -s "$program" bin/eigencrust
+  PATH=$PWD/bin:$PATH bash -e -o pipefail commands >out 2>err </dev/null || die "a command of $page failed"
+}
+
+test_walkthrough_heritage() { walk heritage 6; }
+test_walkthrough_print() { walk print 5; }
+test_walkthrough_research() { walk research 8; }
+test_walkthrough_embedding() { walk embedding 2; }
+
+test_walkthrough_robotics() {
+  walk robotics 4
+  tail -n 1 progress.jsonl | grep -q '"status": *0' || die "the last line of the progress is no end"
+  grep -q '^element face' piped.ply || die "no mesh came through the pipe"
+}
+
+test_walkthrough_survey() {
+  walk survey 3
+  grep -q '; 135.6 above the plane of the rim' out || die "the pile has another volume than the page says"
+}
+
+# Relative links of all pages lead to files.
+test_links_lead_somewhere() {
+  local page target count=0
+  [ -d "$repository/docs" ] || skip "docs is not here"
+  while IFS= read -r page; do
+    while IFS= read -r target; do
+      target=${target%%#*}
+      case $target in '' | *://* | mailto:*) continue ;; esac
+      [ -e "$(dirname "$page")/$target" ] || die "$page leads to $target, which is not there"
+      count=$((count + 1))
+    done < <(sed 's/`[^`]*`//g' "$page" | { grep -oE '\]\([^)]+\)' || true; } | sed 's/^](//; s/)$//')
+  done < <(find "$repository" -maxdepth 3 -name '*.md' -not -path '*/build*' -not -path '*/node_modules/*')
+  [ "$count" -ge 40 ] || die "only $count links were found"
+  echo "$count links"
+}
