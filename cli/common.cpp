@@ -288,6 +288,18 @@ std::string describe_moved(const Report& report) {
   return out.str();
 }
 
+std::string describe_simplified(const Report& report) {
+  if (!report.simplified) return {};
+  const SimplifiedReport& s = *report.simplified;
+  std::ostringstream out;
+  const double mean = (s.deviation.to_full.mean + s.deviation.from_full.mean) / 2;
+  out << "  " << (s.shape ? "remeshed" : "simplified") << " from " << grouped(s.triangles_before)
+      << " triangles: off by " << rounded(mean) << " on average, " << rounded(s.deviation.max()) << " at most";
+  if (s.shape) out << "; smallest angle " << rounded(s.shape->least_angle) << " degrees";
+  out << "\n";
+  return out.str();
+}
+
 } // namespace
 
 std::string describe(const MeshSummary& mesh) { return describe_shape(mesh, "inward") + describe_size(mesh) + "\n"; }
@@ -300,13 +312,13 @@ std::string describe(const Report& report) {
     text += "  interior: free space of " + rounded(-mesh.volume) + ", walls of " + rounded(mesh.area) + "\n";
   else
     text += describe_size(mesh);
-  if (mesh.closed() && rooms) return text + describe_moved(report);
+  if (mesh.closed() && rooms) return text + describe_moved(report) + describe_simplified(report);
   if (!mesh.closed()) // what is left after trimming is covered
     text += ", " + (report.options.trim ? "all" : rounded(100 * (1 - report.unsupported_area)) + " %") +
             " of it covered by samples";
   if (report.base) text += "; " + rounded(report.base->volume_above_rim) + " above the plane of the rim";
   text += "\n";
-  text += describe_moved(report);
+  text += describe_moved(report) + describe_simplified(report);
   if (report.surroundings.kind == SceneKind::facade)
     text += "  one side: seen from " + to_string(report.surroundings.front) + ", solid behind" +
             (report.options.facade

@@ -51,17 +51,22 @@ std::string broken_promise(const RandomRun& run, const Result& result) {
   if (mesh.closed() && mesh.oriented() && (kind == SceneKind::interior ? mesh.volume > 0 : mesh.volume < 0))
     return kind == SceneKind::interior ? "a room faces away from the scanners" : "inward";
   const bool of_poles = o.method == Method::powercrust || o.method == Method::spectral_powercrust;
-  if (!result.report.moved && !o.base && !of_poles && !vertices_are_rows(result.mesh, run.cloud))
+  const auto& simplified = result.report.simplified;
+  if (simplified && simplified->max_error > 0 && !(simplified->deviation.max() <= simplified->max_error))
+    return "farther off than --max-error";
+  if (!result.report.moved && !simplified && !o.base && !of_poles && !vertices_are_rows(result.mesh, run.cloud))
     return "a vertex is no row of the input";
   if (o.surface == SurfaceKind::samples && o.smooth == 0 && result.report.moved) return "moved without being asked to";
   if (!of_poles && result.report.mesh.self_intersections != mesh.self_intersections) return "crossings not told";
-  if (result.report.moved && !o.base && mesh.self_intersections > 0) return "crossings of what moved";
+  if ((result.report.moved || simplified) && !o.base && mesh.self_intersections > 0) return "crossings of what moved";
   if (o.point_results && result.inlier.size() != run.cloud.points.size()) return "rows without a verdict";
   return {};
 }
 
 bool is_expected(ErrorKind kind, const Options& o) {
-  if (kind == ErrorKind::usage) return !o.outside_points.empty() || !o.inside_points.empty() || o.base;
+  if (kind == ErrorKind::usage)
+    return !o.outside_points.empty() || !o.inside_points.empty() || o.base ||
+           o.edge.kind != SurfaceLength::Kind::off; // too short
   if (kind == ErrorKind::memory) return o.max_memory > 0;
   return kind == ErrorKind::input || kind == ErrorKind::no_surface;
 }

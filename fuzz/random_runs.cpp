@@ -170,6 +170,29 @@ void choose_method(Dice& dice, Options& o) {
   o.grid_spacing = length(dice);
 }
 
+SurfaceLength surface_length(Dice& dice) {
+  using Kind = SurfaceLength::Kind;
+  switch (dice.below(3)) {
+    case 0:
+      return {Kind::length, std::pow(10.0, dice.between(-3, 0))};
+    case 1:
+      return {Kind::percent, dice.between(0.01, 30)};
+    default:
+      return {Kind::sigma, dice.between(0.1, 3)};
+  }
+}
+
+void choose_triangles(Dice& dice, Options& o) {
+  if (!o.manifold || !dice.one_in(3)) return;
+  if (dice.one_in(3)) {
+    o.edge = surface_length(dice);
+    return;
+  }
+  const bool by_error = dice.one_in(2);
+  if (by_error) o.max_error = surface_length(dice);
+  if (!by_error || dice.one_in(4)) o.triangles = 1 + dice.below(dice.one_in(2) ? 20 : 400);
+}
+
 void choose_surface(Dice& dice, Options& o) {
   if (dice.one_in(2)) o.surface = dice.one_in(2) ? SurfaceKind::automatic : SurfaceKind::fitted;
   if (!o.trim && dice.one_in(6)) o.base = true;
@@ -205,6 +228,7 @@ Options options_of(Dice& dice, const PointCloud& cloud) {
   if (dice.one_in(3)) o.point_results = true;
   if (dice.one_in(16)) o.max_memory = 12'000'000 + 2000u * dice.below(400);
   choose_surface(dice, o);
+  if (o.method == Method::eigencrust || o.method == Method::spectral_cocone) choose_triangles(dice, o);
   o.threads = 1;
   return o;
 }
@@ -233,6 +257,9 @@ std::string describe(const Options& o) {
                      to_string(o.smoothing) + " --surface " + to_string(o.surface) + " --method " +
                      to_string(o.method) + " (sign: " + to_string(o.global_sign) +
                      ", manifold rule: " + to_string(o.manifold_rule) + ")";
+  if (o.triangles > 0) text += " --triangles " + std::to_string(o.triangles);
+  if (o.max_error.kind != SurfaceLength::Kind::off) text += " --max-error '" + to_string(o.max_error) + "'";
+  if (o.edge.kind != SurfaceLength::Kind::off) text += " --edge '" + to_string(o.edge) + "'";
   if (!o.manifold) text += " --no-manifold";
   text += o.facade ? " --facade=" + to_string(*o.facade) : o.detect_facade ? "" : " --facade off";
   if (o.base) text += " --base";

@@ -18,7 +18,8 @@ class TriangleTree {
  public:
   /// Degenerate triangles are allowed. \throws Error{input} when there is no triangle, or one names a
   /// vertex that is missing or not finite.
-  explicit TriangleTree(const TriangleMesh& mesh);
+  /// \param threads that build it; 0: one per core
+  explicit TriangleTree(const TriangleMesh& mesh, unsigned threads = 1);
   ~TriangleTree();
   TriangleTree(TriangleTree&&) noexcept;
   TriangleTree& operator=(TriangleTree&&) noexcept;

@@ -80,6 +80,21 @@ struct LengthChoice {
   [[nodiscard]] std::optional<double> given(double diagonal) const;
 };
 
+/// A length of the result, in terms of the cloud.
+struct SurfaceLength {
+  enum class Kind : std::uint8_t {
+    off,
+    length,  ///< `value` in the unit of the input
+    percent, ///< `value` percent of the bounding box's diagonal
+    sigma    ///< `value` times the deviation of the noise, the median of the samples
+  };
+  Kind kind = Kind::off;
+  double value = 0;
+
+  /// 0: off, or there is no noise.
+  [[nodiscard]] double resolve(double diagonal, double sigma) const;
+};
+
 /// Which pieces of the surface are kept.
 struct KeepComponents {
   enum class Kind : std::uint8_t {
@@ -131,6 +146,13 @@ struct Options {
   /// Smoothing steps (§3.6); 0: none. Vertices then leave the samples.
   std::uint32_t smooth = 0;
   Smoothing smoothing = Smoothing::laplacian;
+  /// Triangles are made fewer, down to so many; 0: all stay. docs/decisions/0041.
+  std::uint32_t triangles = 0;
+  /// Triangles are made fewer as long as no place, either way, is farther than this from the surface before. With
+  /// `triangles` it ends at what comes first.
+  SurfaceLength max_error;
+  /// Triangles are made regular, with edges of about this length; creases and rims stay. Not with the two before.
+  SurfaceLength edge;
   /// Points in space known to be outside or inside (§3.1); input coordinates.
   std::vector<Vec3> outside_points, inside_points;
   /// Where the cloud knows its sensors (§3.1): lines from samples to their sensors cross the tetrahedra that they enter
@@ -175,6 +197,7 @@ std::string to_string(Smoothing value);
 std::string to_string(Axis value);
 std::string to_string(SceneKind value);
 std::string to_string(const LengthChoice& value);
+std::string to_string(const SurfaceLength& value);
 std::string to_string(const KeepComponents& value);
 
 // The reverse. \throws Error{usage} naming the accepted values.
@@ -187,10 +210,11 @@ Questionable parse_questionable(const std::string& text);
 SurfaceKind parse_surface_kind(const std::string& text);
 Smoothing parse_smoothing(const std::string& text);
 Axis parse_axis(const std::string& text);
-LengthChoice parse_length_choice(const std::string& what, const std::string& text); ///< auto, off, LENGTH or N%
-KeepComponents parse_components(const std::string& text);                           ///< supported, all, largest or N
-std::optional<double> parse_crossing_depth(const std::string& text);                ///< auto or LENGTH
-Vec3 parse_point(const std::string& text);                                          ///< x,y,z
+LengthChoice parse_length_choice(const std::string& what, const std::string& text);   ///< auto, off, LENGTH or N%
+SurfaceLength parse_surface_length(const std::string& what, const std::string& text); ///< off, LENGTH, N% or "N sigma"
+KeepComponents parse_components(const std::string& text);                             ///< supported, all, largest or N
+std::optional<double> parse_crossing_depth(const std::string& text);                  ///< auto or LENGTH
+Vec3 parse_point(const std::string& text);                                            ///< x,y,z
 
 /// \throws Error{usage} naming the first option out of range.
 void check_options(const Options& options);

@@ -47,6 +47,36 @@ struct MovedReport {
   std::uint64_t crossing = 0;          ///< pairs of triangles that cross all the same
 };
 
+/// Distances from points of one surface to another.
+struct DistanceReport {
+  double mean = 0, max = 0; ///< in the unit of the input
+};
+/// Of a simplified or remeshed mesh and the one before.
+struct DeviationReport {
+  DistanceReport to_full;   ///< from points spread evenly over the new mesh, and its vertices
+  DistanceReport from_full; ///< from the vertices of the one before, each for the area around it
+  /// The largest distance either way.
+  [[nodiscard]] double max() const { return to_full.max > from_full.max ? to_full.max : from_full.max; }
+};
+
+/// How regular triangles are.
+struct ShapeReport {
+  double least_angle = 0;           ///< of any triangle, degrees
+  double low_angle = 0;             ///< 99 % of the triangles have no smaller angle, degrees
+  std::vector<std::uint64_t> edges; ///< how many are that long, in quarters of the length asked for; the last: or more
+};
+
+/// Triangles that were made fewer (Options::triangles, Options::max_error) or regular (Options::edge).
+struct SimplifiedReport {
+  std::uint64_t vertices_before = 0, triangles_before = 0, vertices = 0, triangles = 0;
+  double max_error = 0; ///< the one asked for as a length; 0: none
+  double edge = 0;      ///< the same
+  DeviationReport deviation;
+  std::uint64_t held = 0;           ///< vertices before that stay, for triangles would cross or be too far off there
+  std::uint64_t crossing = 0;       ///< pairs of triangles that cross or are degenerate all the same
+  std::optional<ShapeReport> shape; ///< with Options::edge
+};
+
 struct Report {
   std::vector<std::string> command;
   std::vector<InputFile> files;
@@ -60,13 +90,14 @@ struct Report {
   double grid_spacing = 0; ///< the ℓ of the scans or the one given, used with the paper's weights; 0: off
   std::vector<DroppedComponent> dropped_components;
   std::uint64_t undecided_nodes = 0;
-  std::uint64_t sight_lines = 0;        ///< from samples to their sensors; 0: no sensor is known
-  std::uint64_t contradicting_rays = 0; ///< those that cross what was found to be inside
-  std::optional<OneSided> one_sided;    ///< the sensors all lie on one side
-  Surroundings surroundings;            ///< what was scanned
-  std::optional<Base> base;             ///< where Options::base was asked for
-  double unsupported_area = 0;          ///< share of the surface's area that no samples bear out, before trimming
-  std::optional<MovedReport> moved;     ///< none: every vertex is an input point
+  std::uint64_t sight_lines = 0;              ///< from samples to their sensors; 0: no sensor is known
+  std::uint64_t contradicting_rays = 0;       ///< those that cross what was found to be inside
+  std::optional<OneSided> one_sided;          ///< the sensors all lie on one side
+  Surroundings surroundings;                  ///< what was scanned
+  std::optional<Base> base;                   ///< where Options::base was asked for
+  double unsupported_area = 0;                ///< share of the surface's area that no samples bear out, before trimming
+  std::optional<MovedReport> moved;           ///< none: every vertex is an input point
+  std::optional<SimplifiedReport> simplified; ///< none: triangles are those of the surface
   double seconds = 0;
   std::uint64_t peak_memory_bytes = 0;
   std::vector<std::string> warnings;

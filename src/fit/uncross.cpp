@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "geometry/float_places.h"
 #include "geometry/self_intersections.h"
 
 namespace eigencrust {
@@ -14,8 +15,6 @@ namespace {
 constexpr std::uint8_t easing_steps = 4;
 // Then half way, a quarter of the way, and all the way back.
 constexpr std::uint8_t steps_back = 3;
-// Rounding may move a vertex by so small a share of the spacing: what the writer of files allows, too.
-constexpr double shares = 1000;
 
 class Uncrossing {
  public:
@@ -110,11 +109,7 @@ class Uncrossing {
     return changed;
   }
 
-  [[nodiscard]] double rounded(double x) const {
-    const auto result = static_cast<double>(static_cast<float>(x));
-    return std::fabs(result - x) < spacing_ / shares ? result : x;
-  }
-  [[nodiscard]] Vec3 rounded(const Vec3& p) const { return {rounded(p.x), rounded(p.y), rounded(p.z)}; }
+  [[nodiscard]] Vec3 rounded(const Vec3& p) const { return as_floats(p, spacing_); }
 
   std::span<const Vec3> before_;
   std::vector<Vec3> fitted_;

@@ -81,7 +81,7 @@ struct TriangleTree::Impl {
   std::vector<Corners> corners; ///< in the order of the leaves, so that a leaf is read in one go
 };
 
-TriangleTree::TriangleTree(const TriangleMesh& mesh) : impl_(std::make_unique<Impl>()) {
+TriangleTree::TriangleTree(const TriangleMesh& mesh, unsigned threads) : impl_(std::make_unique<Impl>()) {
   if (mesh.triangles.empty())
     throw Error(ErrorKind::input, "distance tree", "the mesh has no triangles", "give a mesh");
   std::vector<Box3> boxes(mesh.triangles.size());
@@ -94,7 +94,7 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh) : impl_(std::make_unique<Im
       boxes[t].add(mesh.vertices[v]);
     }
   }
-  impl_->tree = BoxTree(boxes, Threads(1));
+  impl_->tree = BoxTree(boxes, Threads(threads));
   impl_->corners.reserve(boxes.size());
   for (const std::uint32_t t : impl_->tree.order()) {
     const auto& v = mesh.triangles[t];

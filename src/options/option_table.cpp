@@ -79,7 +79,7 @@ std::string facade_text(const Options& o) {
   return o.detect_facade ? "auto" : "off";
 }
 
-constexpr std::array<OptionEntry, 27> table{{
+constexpr std::array<OptionEntry, 30> table{{
     {"preset", Kind::choice, Group::method, "robust|paper",
      "robust: the measured best; paper: Kolluri, Shewchuk, O'Brien 2004 to the letter",
      [](Options& o, const std::string& text) { o = Options::of(parse_preset(text)); },
@@ -158,6 +158,19 @@ constexpr std::array<OptionEntry, 27> table{{
     {"smoothing", Kind::choice, Group::smoothing, "laplacian|taubin", "laplacian or taubin (keeps the volume)",
      [](Options& o, const std::string& text) { o.smoothing = parse_smoothing(text); },
      [](const Options& o) { return to_string(o.smoothing); }},
+    {"triangles", Kind::count, Group::smoothing, "N",
+     "Make triangles fewer, down to N, and stay as near to the surface as may be; 0: all stay",
+     [](Options& o, const std::string& text) { o.triangles = parse_count("number of triangles", text); },
+     [](const Options& o) { return std::to_string(o.triangles); }},
+    {"max-error", Kind::length, Group::smoothing, "L",
+     "Make triangles fewer, nowhere farther off the surface than a length, N% or 'N sigma' (of the noise); off: all "
+     "stay",
+     [](Options& o, const std::string& text) { o.max_error = parse_surface_length("largest error", text); },
+     [](const Options& o) { return to_string(o.max_error); }},
+    {"edge", Kind::length, Group::smoothing, "L",
+     "Make triangles regular, with edges of about a length, N% or 'N sigma'; off: they stay",
+     [](Options& o, const std::string& text) { o.edge = parse_surface_length("length of edges", text); },
+     [](const Options& o) { return to_string(o.edge); }},
     {"threads", Kind::count, Group::run, "N", "Threads, 0 for all cores; the result is the same for any number",
      [](Options& o, const std::string& text) { o.threads = parse_count("number of threads", text); },
      [](const Options& o) { return std::to_string(o.threads); }},

@@ -69,6 +69,20 @@ std::optional<double> LengthChoice::given(double diagonal) const {
   return kind == Kind::off ? 0 : kind == Kind::percent ? value / 100 * diagonal : value;
 }
 
+double SurfaceLength::resolve(double diagonal, double sigma) const {
+  switch (kind) {
+    case Kind::off:
+      return 0;
+    case Kind::length:
+      return value;
+    case Kind::percent:
+      return value / 100 * diagonal;
+    case Kind::sigma:
+      return value * sigma;
+  }
+  return 0;
+}
+
 Options Options::of(Preset preset) {
   Options options;
   options.preset = preset;
@@ -114,6 +128,20 @@ std::string to_string(const LengthChoice& value) {
   return "?";
 }
 
+std::string to_string(const SurfaceLength& value) {
+  switch (value.kind) {
+    case SurfaceLength::Kind::off:
+      return "off";
+    case SurfaceLength::Kind::length:
+      return shortest(value.value);
+    case SurfaceLength::Kind::percent:
+      return shortest(value.value) + "%";
+    case SurfaceLength::Kind::sigma:
+      return shortest(value.value) + " sigma";
+  }
+  return "?";
+}
+
 std::string to_string(const KeepComponents& value) {
   switch (value.kind) {
     case KeepComponents::Kind::supported:
@@ -147,6 +175,23 @@ LengthChoice parse_length_choice(const std::string& what, const std::string& tex
   const auto value = number_in(percent ? std::string_view(text).substr(0, text.size() - 1) : std::string_view(text));
   if (!value || *value <= 0) reject_value(what, text, "auto, off, a positive length or N%");
   return {percent ? LengthChoice::Kind::percent : LengthChoice::Kind::length, *value};
+}
+
+SurfaceLength parse_surface_length(const std::string& what, const std::string& text) {
+  using Kind = SurfaceLength::Kind;
+  if (text == "off") return {};
+  std::string_view number = text;
+  Kind kind = Kind::length;
+  for (const auto& [unit, unit_kind] : {std::pair{"%", Kind::percent}, std::pair{"sigma", Kind::sigma}})
+    if (number.ends_with(unit)) {
+      kind = unit_kind;
+      number.remove_suffix(std::string_view(unit).size());
+      while (number.ends_with(' ')) number.remove_suffix(1);
+      break;
+    }
+  const auto value = number_in(number);
+  if (!value || *value <= 0) reject_value(what, text, "off, a positive length, N% or 'N sigma'");
+  return {kind, *value};
 }
 
 KeepComponents parse_components(const std::string& text) {
@@ -188,6 +233,14 @@ void check_options(const Options& options) {
     require(!is_given || (length.value > 0 && std::isfinite(length.value)),
             "the grid spacing or the noise is not positive", "give a positive length or percentage");
   }
+  for (const SurfaceLength& length : {options.max_error, options.edge})
+    require(length.kind == SurfaceLength::Kind::off || (length.value > 0 && std::isfinite(length.value)),
+            "the largest error or the length of edges is not positive", "give a positive length or percentage");
+  const bool fewer = options.triangles > 0 || options.max_error.kind != SurfaceLength::Kind::off;
+  const bool others = fewer || options.edge.kind != SurfaceLength::Kind::off;
+  require(!fewer || options.edge.kind == SurfaceLength::Kind::off,
+          "--edge says how large triangles are, so that --triangles and --max-error cannot", "give one or the other");
+  require(!others || options.manifold, "only manifolds are simplified and remeshed", "leave out --no-manifold");
   require(options.components.kind != KeepComponents::Kind::count || options.components.count > 0,
           "no component is to be kept", "keep at least one");
   require(options.solver.tolerance > 0 && options.solver.tolerance < 1, "the solver's tolerance is not in (0, 1)",
@@ -206,6 +259,8 @@ void check_options(const Options& options) {
           "leave out --method");
   require(!of_poles || options.surface != SurfaceKind::fitted,
           "the vertices of a power crust are no samples, and are not fitted", "leave out --surface");
+  require(!by_crust || !others, "crusts are no manifolds, and are neither simplified nor remeshed",
+          "leave out --method");
   require(options.smooth <= 1000, "more than 1000 smoothing steps", "use fewer");
   require(options.threads <= 1024, "more than 1024 threads", "use fewer");
   for (const auto* points : {&options.outside_points, &options.inside_points})

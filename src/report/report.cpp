@@ -65,6 +65,9 @@ Json json_of(const Options& o) {
           {"surface", to_string(o.surface)},
           {"smooth", o.smooth},
           {"smoothing", to_string(o.smoothing)},
+          {"triangles", o.triangles},
+          {"max_error", to_string(o.max_error)},
+          {"edge", to_string(o.edge)},
           {"outside_points", std::move(points_out)},
           {"inside_points", std::move(points_in)},
           {"crossing_depth", o.crossing_depth ? Json(*o.crossing_depth) : Json("auto")},
@@ -109,6 +112,24 @@ Json json_of(const std::optional<OneSided>& scan) {
 Json json_of(const std::optional<MovedReport>& moved) {
   if (!moved) return {};
   return {{"vertices", moved->vertices}, {"median", moved->median}, {"q99", moved->q99}, {"max", moved->max}};
+}
+
+Json json_of(const DistanceReport& distances) { return {{"mean", distances.mean}, {"max", distances.max}}; }
+
+Json json_of(const std::optional<SimplifiedReport>& simplified) {
+  if (!simplified) return {};
+  const SimplifiedReport& s = *simplified;
+  Json json{{"before", {{"vertices", s.vertices_before}, {"triangles", s.triangles_before}}},
+            {"after", {{"vertices", s.vertices}, {"triangles", s.triangles}}},
+            {"error", {{"to_full", json_of(s.deviation.to_full)}, {"from_full", json_of(s.deviation.from_full)}}},
+            {"max_error", s.max_error > 0 ? Json(s.max_error) : Json()},
+            {"edge", s.edge > 0 ? Json(s.edge) : Json()},
+            {"held", s.held}};
+  json["shape"] =
+      s.shape
+          ? Json{{"least_angle", s.shape->least_angle}, {"low_angle", s.shape->low_angle}, {"edges", s.shape->edges}}
+          : Json();
+  return json;
 }
 
 Json json_of(const std::optional<Base>& base) {
@@ -170,6 +191,7 @@ std::string to_json(const Report& report) {
       {"base", json_of(report.base)},
       {"unsupported_area", report.unsupported_area},
       {"moved", json_of(report.moved)},
+      {"simplified", json_of(report.simplified)},
       {"seconds", report.seconds},
       {"peak_memory_bytes", report.peak_memory_bytes},
       {"warnings", report.warnings},

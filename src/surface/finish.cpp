@@ -7,6 +7,7 @@
 #include "fit/uncross.h"
 #include "geometry/exact_difference.h"
 #include "numerics/quantile.h"
+#include "simplify/other_triangles.h"
 #include "surface/base.h"
 #include "surface/surface.h"
 #include "surface/turned_over.h"
@@ -158,7 +159,14 @@ bool move_vertices(Surface& surface, const PointCloud& cloud, const Scene& scene
 
 TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene, const Context& context) {
   const auto& [options, run, threads] = context;
-  const bool moved = move_vertices(surface, cloud, scene, context);
+  bool moved = move_vertices(surface, cloud, scene, context);
+  run.report().simplified.reset();
+  if (asks_for_other_triangles(options)) {
+    const Tetrahedralization& t = scene.tetrahedralization;
+    if (!moved) to_input_coordinates(surface, t, input_points(surface.sample_of, t, cloud));
+    moved = true;
+    make_other_triangles(surface, scene.measures.model, context);
+  }
   std::optional<Base>& base = run.report().base;
   base.reset();
   if (options.base) base = put_on_base(surface, scene, moved, run.report().surroundings.front);
@@ -174,9 +182,11 @@ void check(const TriangleMesh& mesh, const PointCloud& cloud, const Scene& scene
     // Faces of one Delaunay tetrahedralization do not cross, unless they were moved, and then tested, or rounded
     // (docs/guarantees.md).
     const std::optional<MovedReport>& moved = run.report().moved;
-    const bool cannot_cross =
-        checks.self_intersections && !options.base &&
-        (moved ? moved->crossing == 0 : is_exact_translation(scene.tetrahedralization, cloud, threads));
+    const std::optional<SimplifiedReport>& simplified = run.report().simplified;
+    const bool cannot_cross = checks.self_intersections && !options.base &&
+                              (simplified ? simplified->crossing == 0
+                               : moved    ? moved->crossing == 0
+                                          : is_exact_translation(scene.tetrahedralization, cloud, threads));
     ValidateOptions needed = checks;
     needed.self_intersections = checks.self_intersections && !cannot_cross;
     needed.merge_equal_vertices = checks.merge_equal_vertices && !cannot_cross; // samples differ, so vertices do

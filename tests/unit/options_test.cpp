@@ -163,6 +163,24 @@ TEST(Options, WhatIsOutOfRangeIsRefused) {
       [](Options& o) { o.crossing_depth = nan; },
       [](Options& o) { o.crossing_depth = infinity; },
       [](Options& o) { o.smooth = 1001; },
+      [](Options& o) {
+        o.max_error = {SurfaceLength::Kind::percent, 0};
+      },
+      [](Options& o) {
+        o.edge = {SurfaceLength::Kind::length, nan};
+      },
+      [](Options& o) {
+        o.edge = {SurfaceLength::Kind::length, 1};
+        o.triangles = 10;
+      },
+      [](Options& o) {
+        o.triangles = 10;
+        o.manifold = false;
+      },
+      [](Options& o) {
+        o.triangles = 10;
+        o.method = Method::powercrust;
+      },
       [](Options& o) { o.threads = 1025; },
       [](Options& o) {
         o.outside_points = {{0, nan, 0}};
@@ -176,6 +194,18 @@ TEST(Options, WhatIsOutOfRangeIsRefused) {
     changes[i](options);
     EXPECT_NE(refusal([&] { check_options(options); }), "") << "change " << i;
   }
+}
+
+TEST(Options, LengthsOfTheResultAreReadInThreeUnits) {
+  const auto length = [](const char* text) { return parse_surface_length("length", text); };
+  EXPECT_EQ(length("off").resolve(100, 3), 0);
+  EXPECT_EQ(length("0.5").resolve(100, 3), 0.5);
+  EXPECT_EQ(length("0.5%").resolve(100, 3), 0.5);
+  EXPECT_EQ(length("0.5 sigma").resolve(100, 3), 1.5);
+  EXPECT_EQ(length("2sigma").resolve(100, 3), 6);
+  for (const char* text : {"off", "0.5", "0.5%", "0.5 sigma"}) EXPECT_EQ(to_string(length(text)), text);
+  for (const char* text : {"", "auto", "0", "-1", "sigma", "1 mm", "nan", "1% sigma"})
+    EXPECT_NE(refusal([&] { length(text); }), "") << text;
 }
 
 TEST(Options, LimitsAreInRange) {

@@ -85,12 +85,12 @@ TEST(Report, HoldsWhatItWasGiven) {
 
 TEST(Report, HoldsEveryEffectiveOption) {
   const json o = json::parse(to_json(sample_report()))["options"];
-  EXPECT_THAT(keys(o),
-              testing::UnorderedElementsAre(
-                  "preset", "eigensolver", "stop_on_stable_signs", "stable_share", "tolerance", "max_steps", "method",
-                  "base", "second_stage", "grid_spacing", "questionable", "global_sign", "noise", "weights", "manifold",
-                  "manifold_rule", "components", "surface", "smooth", "smoothing", "outside_points", "inside_points",
-                  "facade", "threads", "max_memory", "point_results", "crossing_depth", "trim"));
+  EXPECT_THAT(keys(o), testing::UnorderedElementsAre(
+                           "preset", "eigensolver", "stop_on_stable_signs", "stable_share", "tolerance", "max_steps",
+                           "method", "base", "second_stage", "grid_spacing", "questionable", "global_sign", "noise",
+                           "weights", "manifold", "manifold_rule", "components", "surface", "smooth", "smoothing",
+                           "triangles", "max_error", "edge", "outside_points", "inside_points", "facade", "threads",
+                           "max_memory", "point_results", "crossing_depth", "trim"));
   EXPECT_EQ(o["facade"], "-y");
   EXPECT_EQ(o["inside_points"], json::array({json({1.0, 2.0, 3.0})}));
   EXPECT_EQ(json::parse(to_json(Report{}))["options"]["facade"], "auto");
