@@ -7,6 +7,9 @@
 #include <string>
 #include <utility>
 
+#include <eigencrust/error.h>
+
+#include "geometry/resolution.h"
 #include "numerics/quantile.h"
 #include "report/run.h"
 #include "simplify/remesh.h"
@@ -99,6 +102,9 @@ void make_other_triangles(Surface& surface, const SampleModel& model, const Cont
   if (options.max_error.kind != SurfaceLength::Kind::off) {
     report.max_error = resolve(options.max_error, "max-error", run.report(), model, run);
     if (!(report.max_error > 0)) return;
+    if (!is_resolved(report.max_error, full.vertices, {}))
+      throw Error(ErrorKind::input, "simplify", "the coordinates are so large that they round by more than --max-error",
+                  "give more, or move the cloud nearer to zero with --shift");
   }
   if (is_remeshed) {
     report.edge = resolve(options.edge, "edge", run.report(), model, run);

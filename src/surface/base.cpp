@@ -11,6 +11,7 @@
 #include <eigencrust/validate.h>
 
 #include "geometry/mesh_topology.h"
+#include "geometry/resolution.h"
 #include "geometry/tetrahedron.h"
 #include "numerics/quantile.h"
 #include "surface/components.h"
@@ -178,20 +179,12 @@ double volume_above(const TriangleMesh& mesh, const Frame& frame, const Vec3& pl
   return volume;
 }
 
-/// Far from zero neighbouring numbers may be farther apart than the base is below the surface.
-void expect_resolved(const TriangleMesh& mesh, const Vec3& origin, double gap_below) {
-  double largest = 0;
-  for (const Vec3& v : mesh.vertices)
-    for (const double c : {v.x + origin.x, v.y + origin.y, v.z + origin.z}) largest = std::max(largest, std::fabs(c));
-  if (!(gap_below > 4 * std::numeric_limits<double>::epsilon() * largest))
-    throw Error(ErrorKind::input, "base", "the coordinates are so large that a base would round into the surface",
-                "move the cloud nearer to zero with --shift");
-}
-
 } // namespace
 
 Base close_with_base(Axis front, const SampleModel& model, const Vec3& origin, Surface& surface) {
-  expect_resolved(surface.mesh, origin, gap * model.typical_spacing);
+  if (!is_resolved(gap * model.typical_spacing, surface.mesh.vertices, origin))
+    throw Error(ErrorKind::input, "base", "the coordinates are so large that a base would round into the surface",
+                "move the cloud nearer to zero with --shift");
   drop_upright_at_rim(direction_of(front), surface);
   drop_cavities(surface);
   TriangleMesh& mesh = surface.mesh;
