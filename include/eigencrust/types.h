@@ -65,6 +65,10 @@ struct Box3 {
 /// No number: of a sample, a place, a sensor.
 inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
 
+/// Is all that Tag counts counted by Wider, too?
+template <class Tag, class Wider>
+concept IsAlso = std::same_as<typename Tag::is_also, Wider>;
+
 /// A 32-bit index that only fits the thing it counts: a tetrahedron cannot be taken for a sample.
 template <class Tag>
 struct Index {
@@ -75,7 +79,7 @@ struct Index {
   friend constexpr auto operator<=>(Index, Index) = default;
   /// A sample is a vertex, too.
   template <class Wider>
-  requires std::same_as<typename Tag::is_also, Wider>
+  requires IsAlso<Tag, Wider>
   constexpr operator Index<Wider>() const { // NOLINT: nothing is lost
     return {value};
   }
