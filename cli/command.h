@@ -67,6 +67,10 @@ void add_frame_options(OptionTable& app, InputOptions& options);
 double scale_of_input(const InputOptions& options, std::size_t input);
 /// \throws Error{usage}
 Vec3 shift_of_inputs(const InputOptions& options);
+/// Length of "mm" and its like in metres. \throws Error{usage}
+double parse_unit(const std::string& text);
+/// Length of the result's unit in metres; 0: not known.
+double metres_of_result(const InputOptions& options);
 /// What was done to the coordinates, for the files that are written; empty: nothing but a shift.
 std::vector<std::string> frame_comments(const InputOptions& options);
 

@@ -82,10 +82,10 @@ void note_sensors(const PointCloud& cloud, std::vector<InputFile>& files) {
 
 void add_input_options(OptionTable& app, InputOptions& options) {
   app.begin_chapter("Reading");
-  app.add_option(
-         "INPUT", options.paths,
-         "Point clouds (ply e57 las ptx pcd pts npz npy xyz txt asc csv obj off stl); several are several scans; "
-         "- is standard input")
+  app.add_option("INPUT", options.paths,
+                 "Point clouds (ply e57 las ptx pcd pts npz npy xyz txt asc csv obj off stl glb 3mf); several are "
+                 "several scans; "
+                 "- is standard input")
       ->required()
       ->type_name(file_to_read);
   app.add_option("--columns", options.columns,

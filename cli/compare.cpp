@@ -42,7 +42,7 @@ int compare_verb(const Arguments& arguments) {
   CompareOptions options;
   OptionTable app("How far a mesh is from a reference: distances between points spread over both surfaces.",
                   "eigencrust compare");
-  app.add_option("MESH", mesh_path, "Mesh to judge (ply obj off stl)")->required()->type_name(file_to_read);
+  app.add_option("MESH", mesh_path, "Mesh to judge (ply obj off stl glb 3mf)")->required()->type_name(file_to_read);
   app.add_option("REFERENCE", reference_path, "Mesh taken for the truth")->required()->type_name(file_to_read);
   app.add_option("--samples", options.samples, "Points on each surface")->capture_default_str();
   app.add_option("--seed", options.seed, "Seed of their places")->capture_default_str();

@@ -21,15 +21,6 @@ constexpr std::array<Unit, 8> units = {
   throw Error(ErrorKind::usage, "command line", cause, remedy);
 }
 
-double parse_unit(const std::string& text) {
-  std::string names;
-  for (const Unit& unit : units) {
-    if (text == unit.name) return unit.metres;
-    names += std::string(names.empty() ? "" : ", ") + unit.name;
-  }
-  fail("'" + text + "' is no unit", "the units are " + names + "; any other length in metres goes with --scale");
-}
-
 double parse_scale(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
@@ -39,6 +30,15 @@ double parse_scale(const std::string& text) {
 }
 
 } // namespace
+
+double parse_unit(const std::string& text) {
+  std::string names;
+  for (const Unit& unit : units) {
+    if (text == unit.name) return unit.metres;
+    names += std::string(names.empty() ? "" : ", ") + unit.name;
+  }
+  fail("'" + text + "' is no unit", "the units are " + names + "; any other length in metres goes with --scale");
+}
 
 void add_frame_options(OptionTable& app, InputOptions& options) {
   app.begin_chapter("Reading");
@@ -74,6 +74,8 @@ Vec3 shift_of_inputs(const InputOptions& options) {
   if (!is_finite(shift)) fail("the shift '" + options.shift + "' is not finite", "give three finite numbers x,y,z");
   return shift;
 }
+
+double metres_of_result(const InputOptions& options) { return options.unit.empty() ? 0 : 1; }
 
 std::vector<std::string> frame_comments(const InputOptions& options) {
   std::string text;

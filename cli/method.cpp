@@ -108,7 +108,7 @@ std::string real_output(const std::string& path) { return is_standard_output(pat
 void check_format(const Request& r, OutputKind kind) {
   const bool mesh = kind == OutputKind::mesh;
   if (mesh ? can_write_mesh(r.output, r.format) : can_write_point_cloud(r.output, r.format)) return;
-  const std::string known = mesh ? "ply, obj, off or stl" : "ply, pcd, las, xyz, txt, asc, csv or obj";
+  const std::string known = mesh ? "ply, obj, off, stl, glb or 3mf" : "ply, pcd, las, xyz, txt, asc, csv or obj";
   if (!r.format.empty())
     throw Error(ErrorKind::usage, "--format",
                 std::string("there is no format of ") + (mesh ? "meshes" : "clouds") + " named " + r.format,
@@ -194,7 +194,7 @@ void MethodRun::name_rows_of_files() {
   std::vector<std::uint32_t> rows(result.mesh.vertices.size());
   for (std::size_t v = 0; v < rows.size(); ++v)
     rows[v] = read_.rows[static_cast<std::size_t>(attribute_value(*found, v))];
-  *found = make_attribute("source_index", rows);
+  *found = derived_attribute(make_attribute("source_index", rows));
 }
 
 void MethodRun::reconstruct(const Options& options) {
@@ -220,7 +220,8 @@ void MethodRun::finish(const std::function<WriteResult(OutputFiles&, const std::
                                     {.spacing = report.spacing,
                                      .comments = std::move(comments),
                                      .format = request_.format,
-                                     .shift = shift_of_inputs(request_.input)});
+                                     .shift = shift_of_inputs(request_.input),
+                                     .metres = metres_of_result(request_.input)});
   report.warnings.insert(report.warnings.end(), written.warnings.begin(), written.warnings.end());
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   report.peak_memory_bytes = peak_memory_bytes();

@@ -32,7 +32,7 @@ struct Request {
   bool quiet = false;
 };
 
-/// -o, --format, --report, --each. \param what "Mesh to write (ply obj off stl)"
+/// -o, --format, --report, --each. \param what "Mesh to write (ply obj off stl glb 3mf)"
 void add_output_options(OptionTable& app, Request& request, const std::string& what);
 /// All that changes the labels or which pieces are kept.
 void add_method_options(OptionTable& app, Request& request);

@@ -41,7 +41,7 @@ void find_output(Request& r, std::vector<std::string>& command) {
       fail(names[1] + " exists and is no mesh: it may be a second scan", "add -o before the name of the result");
   } else if (!can_write_mesh(names[1], r.format)) {
     fail(names[1] + " does not exist, and no mesh format is known by this name",
-         "end the result's name in .ply, .obj, .off or .stl, or add -o before it");
+         "end the result's name in .ply, .obj, .off, .stl, .glb or .3mf, or add -o before it");
   }
   r.output = names[1];
   names.pop_back();
@@ -76,7 +76,8 @@ int reconstruct_verb(const Arguments& arguments) {
   Request request;
   OptionTable app("Point clouds to a closed, manifold, outward oriented triangle mesh.", "eigencrust reconstruct");
   add_input_options(app, request.input);
-  add_output_options(app, request, "Mesh to write (ply obj off stl); of two names without it the second is the result");
+  add_output_options(app, request,
+                     "Mesh to write (ply obj off stl glb 3mf); of two names without it the second is the result");
   add_smoothing_options(app, request);
   add_method_options(app, request);
   add_run_options(app, request);

@@ -44,7 +44,7 @@ ${libs_private}Cflags: -I\${includedir}
 endfunction()
 eigencrust_pkg_config(eigencrust "${PROJECT_DESCRIPTION}" eigencrust "" "tbb mpfr gmp")
 eigencrust_pkg_config(eigencrust-io "Point clouds and meshes from and to files" eigencrust_io eigencrust
-                      "zlib libcrypto pugixml")
+                      "zlib libcrypto pugixml tinygltf lib3MF")
 eigencrust_pkg_config(eigencrust-render "Pictures of meshes and clouds" eigencrust_render eigencrust-io libpng)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/eigencrust/examples
   PATTERN "*.sh" EXCLUDE)

@@ -83,7 +83,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!std::string_view(file.name()).ends_with(".pcd")) break;
   }
   try {
-    const TriangleMesh mesh = io::read_mesh(file);
+    MeshNotes notes;
+    const TriangleMesh mesh = io::read_mesh(file, notes);
     for (const auto& triangle : mesh.triangles)
       for (const std::uint32_t vertex : triangle) require(vertex < mesh.vertices.size());
   } catch (const Error&) {

@@ -20,7 +20,7 @@ fi
 seconds=${1:-5}
 case $seconds in '' | *[!0-9]*) fail "SECONDS is a whole number, not '$seconds'" ;; esac
 formats=("${@:2}")
-[ ${#formats[@]} -gt 0 ] || formats=(e57 las npz npy ptx pcd pts ply obj off stl xyz csv vis images.bin images.txt
+[ ${#formats[@]} -gt 0 ] || formats=(e57 las npz npy ptx pcd pts ply obj off stl glb 3mf xyz csv vis images.bin images.txt
   sensors.csv index.txt)
 
 install_packages "${build_packages[@]}" "${fuzz_packages[@]}"

@@ -6,7 +6,8 @@ repository=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 
 # libcgal-dev brings Boost, GMP and MPFR.
 build_packages=(g++ cmake ninja-build libcgal-dev libeigen3-dev libspectra-dev libnanoflann-dev
-  nlohmann-json3-dev libtbb-dev libpng-dev zlib1g-dev libssl-dev libpugixml-dev)
+  nlohmann-json3-dev libtbb-dev libpng-dev zlib1g-dev libssl-dev libpugixml-dev
+  libtinygltf-dev lib3mf-dev)
 tool_packages=(libcli11-dev) # of the tools and the benchmarks
 test_packages=("${tool_packages[@]}" libgtest-dev libgmock-dev clang-format)
 # What the Python package is built with, and what its tests need beside it. Open3D comes with 200 MB of others.

@@ -107,7 +107,7 @@ void add_error_options(CLI::App& app, Settings& s) {
 }
 
 void add_options(CLI::App& app, Settings& s) {
-  app.add_option("INPUT", s.input, "mesh (ply, obj, off, stl) or Bézier patches (txt, bpt)")->required();
+  app.add_option("INPUT", s.input, "mesh (ply, obj, off, stl, glb, 3mf) or Bézier patches (txt, bpt)")->required();
   app.add_option("-o,--output", s.output, "cloud to write (ply, xyz, txt, asc, csv)")->required();
   app.add_option("--subdivisions", s.subdivisions, "of each patch, 1 to 1024")->capture_default_str();
   app.add_option("--threads", s.scan.threads, "0: all cores; the result is the same for any number")

@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
   bool outer = false;
   CLI::App app(about, "eigencrust-teapot");
   app.add_option("PATCHES", input, "file of patches")->capture_default_str();
-  app.add_option("-o,--output", output, "mesh to write (ply, obj, off, stl)")->required();
+  app.add_option("-o,--output", output, "mesh to write (ply, obj, off, stl, glb, 3mf)")->required();
   app.add_option("--subdivisions", subdivisions, "squares along each side of a patch, 1 to 1024")
       ->capture_default_str();
   app.add_flag("--outer-only", outer, "leave out what lies inside other parts and cannot be seen from outside");

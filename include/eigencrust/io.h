@@ -41,7 +41,7 @@ struct ReadNotes {
   std::vector<std::string> warnings; ///< what was left out, or looks wrong
 };
 
-/// Reads a point cloud. Formats with a signature of their own (ply, e57, las, pcd, ptx, off, npy, npz) are
+/// Reads a point cloud. Formats with a signature of their own (ply, e57, las, pcd, ptx, off, npy, npz, glb, 3mf) are
 /// known by it; otherwise the format follows the extension (xyz, txt, asc, csv, pts, obj, stl; upper case too),
 /// and the content where the extension says nothing. From a mesh its vertices are taken, those of an
 /// STL once per distinct position.
@@ -84,10 +84,17 @@ std::vector<std::filesystem::path> companion_files(const std::filesystem::path& 
 /// NAME.offset.txt: what writing `path` may write beside it, or remove there.
 std::filesystem::path offset_file(const std::filesystem::path& path);
 
-/// Reads a mesh (ply, obj, off, stl); polygons are split into triangle fans. STL corners with equal
-/// coordinates become one vertex.
+/// What the file of a mesh says beside the mesh.
+struct MeshNotes {
+  double metres = 0;                ///< length of the coordinates' unit in metres; 0: the file does not tell
+  std::vector<std::string> notes{}; ///< what was left out, a sentence each
+};
+
+/// Reads a mesh (ply, obj, off, stl, glb, 3mf); polygons are split into triangle fans. STL corners with equal
+/// coordinates become one vertex. The scene of a GLB file is turned from y up, its format's way, to z up.
+/// \param notes if given, gets what there is to say
 /// \throws Error{input} as above, also for an index out of range.
-TriangleMesh read_mesh(const std::filesystem::path& path);
+TriangleMesh read_mesh(const std::filesystem::path& path, MeshNotes* notes = nullptr);
 
 /// Appends `next` to `cloud` as one more scan: scan indices are shifted so that scans stay apart (a
 /// cloud without scan index counts as one scan). Attributes are joined by name; rows of a file that
@@ -120,21 +127,23 @@ struct WriteOptions {
   /// What was added to the coordinates of the input. Written as a comment; formats without any (stl, csv, las), and
   /// those that need an offset of their own, get a file NAME.offset.txt with the numbers that lead back.
   Vec3 shift{};
+  double metres = 0; ///< length of the coordinates' unit in metres, for formats that tell it (glb, 3mf); 0: not known
 };
 
 struct WriteResult {
   CoordinateType coordinates = CoordinateType::float64; ///< what was chosen
-  Vec3 offset;                                          ///< subtracted from the coordinates (STL far from the origin)
-  std::vector<std::string> warnings;                    ///< what the format could not hold
+  Vec3 offset;                       ///< subtracted from the coordinates (STL and 3MF far from the origin)
+  std::vector<std::string> warnings; ///< what the format could not hold
 };
 
-/// Writes a mesh (ply binary little-endian, obj, off, stl binary), atomically: into a temporary file
+/// Writes a mesh (ply binary little-endian, obj, off, stl binary, glb, 3mf), atomically: into a temporary file
 /// beside `path`, flushed, then renamed; on any failure the temporary is removed and `path` untouched.
 /// Text formats use the shortest digits that read back as the same double.
 /// PLY keeps every attribute under its own name and type (an attribute named x, y or z, or twice, gets
-/// a suffix). OBJ and OFF keep colours only, STL nothing; what is lost is listed in the warnings.
+/// a suffix). OBJ, OFF, GLB and 3MF keep colours only, STL nothing; what is lost is listed in the warnings, unless the
+/// program made it itself.
 /// STL knows float32 only: where that would move a vertex by more than 1e-3 of the spacing the box's
-/// centre is subtracted, reported as `offset` and written into NAME.offset.txt.
+/// centre is subtracted, reported as `offset` and written into NAME.offset.txt. So does 3MF; GLB has a place for it.
 /// \throws Error{input} (unwritable, unknown extension), Error{guarantee} when float32 would make two
 ///         vertices equal even with an offset.
 WriteResult write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options = {});

@@ -65,6 +65,10 @@ struct Box3 {
 /// No number: of a sample, a place, a sensor.
 inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
 
+/// Is all that Tag counts counted by Wider, too?
+template <class Tag, class Wider>
+concept IsAlso = std::same_as<typename Tag::is_also, Wider>;
+
 /// A 32-bit index that only fits the thing it counts: a tetrahedron cannot be taken for a sample.
 template <class Tag>
 struct Index {
@@ -75,7 +79,7 @@ struct Index {
   friend constexpr auto operator<=>(Index, Index) = default;
   /// A sample is a vertex, too.
   template <class Wider>
-  requires std::same_as<typename Tag::is_also, Wider>
+  requires IsAlso<Tag, Wider>
   constexpr operator Index<Wider>() const { // NOLINT: nothing is lost
     return {value};
   }
@@ -173,6 +177,7 @@ struct Attribute {
   bool is_list = false;
   ScalarType count_type = ScalarType::uint8; ///< type of the list's length in the file
   std::vector<std::uint64_t> offsets;        ///< rows + 1 entries when is_list, else empty
+  bool derived = false; ///< made by the program, not read: formats without room for it need not say so
 
   [[nodiscard]] std::size_t rows() const {
     return is_list ? (offsets.empty() ? 0 : offsets.size() - 1) : values.size() / size_of(type);
@@ -185,6 +190,8 @@ double attribute_value(const Attribute& attribute, std::size_t row);
 Attribute make_attribute(std::string name, ScalarType type, std::span<const double> values);
 Attribute make_attribute(std::string name, std::span<const std::uint32_t> values);
 Attribute make_attribute(std::string name, std::span<const float> values);
+/// The same, made by the program.
+Attribute derived_attribute(Attribute attribute);
 /// The rows `rows` of an attribute, in that order.
 Attribute gather(const Attribute& attribute, std::span<const std::uint32_t> rows);
 /// The attribute of that name, or null.

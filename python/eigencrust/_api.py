@@ -297,7 +297,7 @@ def forecast(points: Union[int, "ArrayLike", _core.PointCloud]) -> Forecast:
 def read_point_cloud(
     path: Path, *, columns: Sequence[str] = (), pcd_viewpoint: str = "auto", sensors: bool = True
 ) -> _core.PointCloud:
-    """Reads a cloud with all its attributes: ply e57 las ptx pcd pts npz npy xyz txt asc csv obj off stl.
+    """Reads a cloud with all its attributes: ply e57 las ptx pcd pts npz npy xyz txt asc csv obj off stl glb 3mf.
 
     columns: names of a text file's columns in order, "-" skips one. pcd_viewpoint: auto, sensor, pose or none.
     sensors: False leaves out what the file says of sensors. What could be read in two ways is
@@ -311,7 +311,7 @@ def read_point_cloud(
 
 
 def read_mesh(path: Path) -> _core.Mesh:
-    """Reads a mesh: ply obj off stl."""
+    """Reads a mesh: ply obj off stl glb 3mf."""
     return _core.read_mesh(path)
 
 
@@ -328,7 +328,7 @@ def write_mesh(
     spacing: Optional[float] = None,
     comments: Sequence[str] = (),
 ) -> None:
-    """Writes a mesh, whole or not at all: ply obj off stl.
+    """Writes a mesh, whole or not at all: ply obj off stl glb 3mf.
 
     coordinates: auto, float32 or float64; auto takes float32 where that moves no vertex by more than a thousandth of
     `spacing` (of a Result it is known; else the median edge length).

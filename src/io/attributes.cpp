@@ -192,7 +192,7 @@ void warn_lost_attributes(const std::vector<Attribute>& attributes, const std::s
   for (const Attribute& attribute : attributes) {
     const bool is_colour = colours != nullptr && colours->is_source(attribute);
     const bool is_alpha = is_colour && colours->source.size() == 4 && colours->source.back() == &attribute;
-    if (is_colour && (with_alpha || !is_alpha)) continue;
+    if (attribute.derived || (is_colour && (with_alpha || !is_alpha))) continue;
     if (std::find(kept.begin(), kept.end(), &attribute) != kept.end()) continue;
     names += (names.empty() ? "" : ", ") + attribute.name;
   }

@@ -38,7 +38,7 @@ void append_rows(PointCloud& cloud, PointCloud next);
 /// The rows of the cloud in that order, which increases, with all that belongs to them.
 void keep_rows(PointCloud& cloud, std::span<const std::uint32_t> rows);
 
-/// One warning that lists the attributes a format has no room for.
+/// One warning that lists the attributes a format has no room for; what the program made itself is not worth one.
 /// \param colours those that it holds, or null
 /// \param with_alpha the format holds alpha too
 /// \param kept others that it holds

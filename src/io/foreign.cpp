@@ -17,7 +17,7 @@ constexpr const char* as_points = "export the points from it as PLY, E57, LAS or
 constexpr const char* unpack = "unpack it first";
 constexpr const char* no_points = "it holds no points: choose another file";
 
-constexpr std::array<Foreign, 33> kinds = {{
+constexpr std::array<Foreign, 32> kinds = {{
     {"\x1f\x8b", "a gzip archive", unpack},
     {"BZh", "a bzip2 archive", unpack},
     {"\xfd"
@@ -42,7 +42,6 @@ constexpr std::array<Foreign, 33> kinds = {{
     {"\x89MCAP", "a ROS bag (MCAP)", "save its clouds as PCD"},
     {"\xd4\xc3\xb2\xa1", "a capture of network packets (pcap)", "export the points with the scanner's own viewer"},
     {"\x0a\x0d\x0d\x0a", "a capture of network packets (pcapng)", "export the points with the scanner's own viewer"},
-    {"glTF", "a glTF model", "convert it to PLY or OBJ"},
     {"Kaydara FBX", "an FBX model", "convert it to PLY or OBJ"},
     {"BLENDER", "a Blender scene", "export it as PLY or OBJ"},
     {"ISO-10303-21", "a STEP model or IFC building", "it holds no points: tessellate it to STL or PLY"},
@@ -71,16 +70,17 @@ void reject_foreign(const FileContent& file) {
   if (start.starts_with("<!doctype html") || start.starts_with("<html"))
     reject(file, "a web page, and not the file that it tells of", "download the file itself");
   if (start.starts_with("<?xml") || start.starts_with("<landxml")) reject(file, "an XML document", as_points);
+  const bool is_gltf = lower_case(file.name()).ends_with(".gltf");
+  if (is_gltf && start.starts_with("{")) reject(file, "a glTF model in several files", "save it as one file (.glb)");
   if (start.starts_with("{\"") || start.starts_with("{\n") || start.starts_with("{\r"))
     reject(file, "a JSON document", as_points);
   if (text.starts_with("0\r\nSECTION") || text.starts_with("0\nSECTION") || text.starts_with("999\n"))
     reject(file, "an AutoCAD drawing (DXF)", as_points);
   // Archives that programs use as their own format; an .npz is one too.
   constexpr std::size_t member_name = 30; // where the header of an archive's first member has it
-  if (!bytes.starts_with("PK\3\4") || bytes.size() <= member_name) return;
+  if (!bytes.starts_with("PK\3\4") || bytes.size() <= member_name || looks_like_three_mf(file)) return;
   for (const auto& [member, kind, remedy] :
-       {std::tuple{"[Content_Types].xml", "a workbook or document of Microsoft Office, or a 3MF model",
-                   "save the table as CSV, the model as PLY"},
+       {std::tuple{"[Content_Types].xml", "a workbook or document of Microsoft Office", "save the table as CSV"},
         std::tuple{"mimetype", "a document of LibreOffice", "save the table as CSV"},
         std::tuple{"doc.kml", "a KMZ file", as_points}})
     if (bytes.substr(member_name, 200).starts_with(member)) reject(file, kind, remedy);

@@ -31,18 +31,21 @@ PointCloud read_npz(const FileContent& file, std::vector<std::string>& notes);
 TriangleMesh read_obj(const FileContent& file);
 TriangleMesh read_off(const FileContent& file);
 TriangleMesh read_stl(const FileContent& file);
+TriangleMesh read_glb(const FileContent& file, MeshNotes& notes);
+TriangleMesh read_three_mf(const FileContent& file, MeshNotes& notes);
 
 // Whether the file begins as no other format does.
 bool looks_like_ptx(const FileContent& file);
 bool looks_like_pcd(const FileContent& file);
 bool looks_like_esri_grid(const FileContent& file);
+bool looks_like_three_mf(const FileContent& file);
 
 /// \throws Error{input} where the file is of a kind that other programs know: says which, and what to do
 void reject_foreign(const FileContent& file);
 
 /// What read_point_cloud and read_mesh do, once the bytes are there; the name's extension counts.
 PointCloud read_cloud(const FileContent& file, const ReadOptions& options, ReadNotes& notes);
-TriangleMesh read_mesh(const FileContent& file);
+TriangleMesh read_mesh(const FileContent& file, MeshNotes& notes);
 
 // Writers. They check and choose first (prepare), so that nothing is created in vain, and leave what
 // they chose in `result`.
@@ -57,6 +60,8 @@ std::optional<Vec3> viewpoint_of(const PointCloud& cloud);
 Body prepare_las(const PointCloud& cloud, const WriteOptions& options, WriteResult& result);
 Body prepare_off(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result);
 Body prepare_stl(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result);
+Body prepare_glb(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result);
+Body prepare_three_mf(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result);
 /// \param separator between the fields; ',' writes the header line without a mark
 Body prepare_xyz(const PointCloud& cloud, const WriteOptions& options, char separator, WriteResult& result);
 

@@ -283,7 +283,8 @@ void put_column(Bytes& record, const Layout& layout, const Column& column, std::
     record.put_bits(field.offset, field.shift, static_cast<unsigned>(value));
     return;
   }
-  with_scalar(field.type, [&]<class T>(std::type_identity<T>) { record.put(field.offset, static_cast<T>(value)); });
+  with_scalar(field.type,
+              [&, &field = field]<class T>(std::type_identity<T>) { record.put(field.offset, static_cast<T>(value)); });
 }
 
 Bytes make_record(const PointCloud& cloud, const Layout& layout, std::size_t row) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 
+#include <eigencrust/error.h>
+
 namespace eigencrust::io {
 namespace {
 
@@ -60,6 +62,32 @@ bool distinct_as_float(std::span<const Vec3> points, const Vec3& offset) {
     if (entries[i - 1].key == entries[i].key && is_finite(a) && is_finite(b) && !(a == b)) return false;
   }
   return true;
+}
+
+Vec3 offset_for_float(const TriangleMesh& mesh, double spacing, const std::string& format,
+                      std::vector<std::string>& warnings) {
+  const double moved = rounding_error(mesh.vertices);
+  if (moved == 0) return {};
+  const double allowed = allowed_rounding * (spacing > 0 ? spacing : median_edge(mesh));
+  if (moved <= allowed && distinct_as_float(mesh.vertices)) return {};
+  Box3 box;
+  for (const Vec3& p : mesh.vertices)
+    if (is_finite(p)) box.add(p);
+  const Vec3 offset = box.centre();
+  if (!distinct_as_float(mesh.vertices, offset))
+    throw Error(ErrorKind::guarantee, format,
+                "the 32-bit coordinates of " + format + " would make different vertices equal",
+                "write PLY, OBJ or OFF");
+  if (rounding_error(mesh.vertices, offset) > allowed)
+    warnings.emplace_back("rounding to 32 bits moves vertices by more than 1/1000 of the spacing");
+  return offset;
+}
+
+void require_finite(const TriangleMesh& mesh, const std::string& format) {
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    if (!is_finite(mesh.vertices[v]))
+      throw Error(ErrorKind::input, format,
+                  "vertex " + std::to_string(v) + " is not finite, which " + format + " cannot hold", "write PLY");
 }
 
 CoordinateType choose_coordinates(std::span<const Vec3> points, double spacing, const WriteOptions& options) {

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <vector>
 
 #include <eigencrust/io.h>
 #include <eigencrust/types.h>
@@ -22,6 +24,16 @@ double rounding_error(std::span<const Vec3> points, const Vec3& offset = {});
 
 /// Do points that differ still differ as float32(p - offset)? (0 and -0 are equal.)
 bool distinct_as_float(std::span<const Vec3> points, const Vec3& offset = {});
+
+/// Formats that hold float32 only: what is subtracted so that no vertex moves by more than allowed and different ones
+/// stay apart; nothing where that is true without. A warning where it is not enough for the first.
+/// \param spacing median distance of neighbours; 0: the median edge
+/// \throws Error{guarantee} where it is not enough for the second
+Vec3 offset_for_float(const TriangleMesh& mesh, double spacing, const std::string& format,
+                      std::vector<std::string>& warnings);
+
+/// \throws Error{input} where a vertex is not finite
+void require_finite(const TriangleMesh& mesh, const std::string& format);
 
 /// float32 where it neither moves a point by much nor makes different points equal, unless the options say which.
 /// \param spacing median distance of neighbours; 0: not known

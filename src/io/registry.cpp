@@ -32,7 +32,7 @@ using io::FileContent;
 
 using Notes = std::vector<std::string>;
 using CloudReader = PointCloud (*)(const FileContent&, const ReadOptions&, ReadNotes&);
-using MeshReader = TriangleMesh (*)(const FileContent&);
+using MeshReader = TriangleMesh (*)(const FileContent&, MeshNotes&);
 using MeshWriter = Body (*)(const TriangleMesh&, const WriteOptions&, WriteResult&);
 using CloudWriter = Body (*)(const PointCloud&, const WriteOptions&, WriteResult&);
 
@@ -62,10 +62,18 @@ PointCloud read_noted(const FileContent& file, const ReadOptions&, ReadNotes& no
   return read(file, notes.notes);
 }
 
+/// Meshes that say nothing of themselves.
+template <TriangleMesh (*read)(const FileContent&)>
+TriangleMesh read_plain(const FileContent& file, MeshNotes&) {
+  return read(file);
+}
+
 /// The vertices of a mesh.
 template <MeshReader read>
-PointCloud read_vertices(const FileContent& file, const ReadOptions&, ReadNotes&) {
-  TriangleMesh mesh = read(file);
+PointCloud read_vertices(const FileContent& file, const ReadOptions&, ReadNotes& said) {
+  MeshNotes notes;
+  TriangleMesh mesh = read(file, notes);
+  said.notes.insert(said.notes.end(), notes.notes.begin(), notes.notes.end());
   PointCloud cloud;
   cloud.points = std::move(mesh.vertices);
   cloud.attributes = std::move(mesh.vertex_attributes);
@@ -79,8 +87,8 @@ Body write_rows(const PointCloud& cloud, const WriteOptions& options, WriteResul
 
 constexpr Format esri_grid = {"asc", read_grid_points}; ///< known by its first line alone
 
-constexpr std::array<Format, 16> formats = {{
-    {"ply", read_ply_points, io::read_ply_mesh, io::prepare_ply, io::prepare_ply},
+constexpr std::array<Format, 18> formats = {{
+    {"ply", read_ply_points, read_plain<io::read_ply_mesh>, io::prepare_ply, io::prepare_ply},
     {"xyz", io::read_xyz, nullptr, nullptr, write_rows<' '>},
     {"txt", io::read_xyz, nullptr, nullptr, write_rows<' '>},
     {"asc", io::read_xyz, nullptr, nullptr, write_rows<' '>},
@@ -93,9 +101,11 @@ constexpr std::array<Format, 16> formats = {{
     {"laz", read_noted<io::read_las>}, // which says why it cannot
     {"npz", read_noted<io::read_npz>},
     {"npy", read_npy_points},
-    {"obj", read_vertices<io::read_obj>, io::read_obj, io::prepare_obj, io::prepare_obj},
-    {"off", read_vertices<io::read_off>, io::read_off, io::prepare_off},
-    {"stl", read_vertices<io::read_stl>, io::read_stl, io::prepare_stl},
+    {"obj", read_vertices<read_plain<io::read_obj>>, read_plain<io::read_obj>, io::prepare_obj, io::prepare_obj},
+    {"off", read_vertices<read_plain<io::read_off>>, read_plain<io::read_off>, io::prepare_off},
+    {"stl", read_vertices<read_plain<io::read_stl>>, read_plain<io::read_stl>, io::prepare_stl},
+    {"glb", read_vertices<io::read_glb>, io::read_glb, io::prepare_glb},
+    {"3mf", read_vertices<io::read_three_mf>, io::read_three_mf, io::prepare_three_mf},
 }};
 
 const Format* find_format(std::string_view extension) {
@@ -140,7 +150,9 @@ const Format* sniff_signature(const FileContent& file) {
   if (bytes.starts_with("ASTM-E57")) return find_format("e57");
   if (bytes.starts_with("LASF")) return find_format("las");
   if (bytes.starts_with("\x93NUMPY")) return find_format("npy");
-  if (bytes.starts_with("PK\3\4") || bytes.starts_with("PK\5\6")) return find_format("npz");
+  if (bytes.starts_with("glTF")) return find_format("glb");
+  if (bytes.starts_with("PK\3\4") || bytes.starts_with("PK\5\6"))
+    return find_format(io::looks_like_three_mf(file) || format_of(file.name()) == find_format("3mf") ? "3mf" : "npz");
   std::string_view first = bytes.substr(0, std::min(bytes.find_first_of("\r\n"), bytes.size()));
   const std::string_view word = io::next_word(first);
   if (word == "ply") return find_format("ply");
@@ -173,10 +185,11 @@ const Format& format_for_reading(const FileContent& file, bool mesh_wanted) {
   if (format == nullptr) format = format_of(file.name());
   if (format == nullptr) format = sniff(file);
   if (format == nullptr)
-    file.fail("the format is not known",
-              "convert the file to ply, e57, las, ptx, pcd, pts, npz, npy, xyz, txt, asc, csv, obj, off or stl");
+    file.fail(
+        "the format is not known",
+        "convert the file to ply, e57, las, ptx, pcd, pts, npz, npy, xyz, txt, asc, csv, obj, off, stl, glb or 3mf");
   if (mesh_wanted && format->read_mesh == nullptr)
-    file.fail("the file holds points, not a mesh", "use a ply, obj, off or stl file");
+    file.fail("the file holds points, not a mesh", "use a ply, obj, off, stl, glb or 3mf file");
   return *format;
 }
 
@@ -226,8 +239,9 @@ void change_frame(PointCloud& cloud, const ReadOptions& options) {
 }
 
 [[noreturn]] void fail_extension(const std::filesystem::path& path, bool mesh) {
-  throw Error(ErrorKind::input, path.string(), "there is no writer for this file name's extension",
-              mesh ? "use .ply, .obj, .off or .stl" : "use .ply, .pcd, .las, .xyz, .txt, .asc, .csv or .obj");
+  throw Error(
+      ErrorKind::input, path.string(), "there is no writer for this file name's extension",
+      mesh ? "use .ply, .obj, .off, .stl, .glb or .3mf" : "use .ply, .pcd, .las, .xyz, .txt, .asc, .csv or .obj");
 }
 
 /// Are the sensors among the attributes, so that they are written?
@@ -292,7 +306,9 @@ PointCloud io::read_cloud(const FileContent& original, const ReadOptions& option
   return cloud;
 }
 
-TriangleMesh io::read_mesh(const FileContent& file) { return format_for_reading(file, true).read_mesh(file); }
+TriangleMesh io::read_mesh(const FileContent& file, MeshNotes& notes) {
+  return format_for_reading(file, true).read_mesh(file, notes);
+}
 
 std::vector<std::filesystem::path> companion_files(const std::filesystem::path& path) {
   const std::filesystem::path visibility = visibility_of(path);
@@ -320,9 +336,10 @@ PointCloud read_point_cloud(const std::filesystem::path& path, const ReadOptions
   }
 }
 
-TriangleMesh read_mesh(const std::filesystem::path& path) {
+TriangleMesh read_mesh(const std::filesystem::path& path, MeshNotes* notes) {
   try {
-    return io::read_mesh(FileContent(path));
+    MeshNotes unused;
+    return io::read_mesh(FileContent(path), notes == nullptr ? unused : *notes);
   } catch (const std::bad_alloc&) {
     fail_memory(path);
   } catch (const std::length_error&) {

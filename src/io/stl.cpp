@@ -8,6 +8,7 @@
 #include "io/attributes.h"
 #include "io/binary_output.h"
 #include "io/formats.h"
+#include "io/offset_file.h"
 #include "io/polygons.h"
 #include "io/precision.h"
 #include "io/text.h"
@@ -166,29 +167,15 @@ Vec3 unit_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
   return length > 0 && std::isfinite(length) ? (1 / length) * n : Vec3{};
 }
 
-/// Subtracts the box's centre where float32 needs it. \throws Error{guarantee} where that is not enough.
+/// What is subtracted is told.
 void choose_offset(const TriangleMesh& mesh, const WriteOptions& options, WriteResult& result) {
-  const double moved = rounding_error(mesh.vertices);
-  if (moved == 0) return;
-  const double allowed = allowed_rounding * (options.spacing > 0 ? options.spacing : median_edge(mesh));
-  if (moved <= allowed && distinct_as_float(mesh.vertices)) return;
-  Box3 box;
-  for (const Vec3& p : mesh.vertices)
-    if (is_finite(p)) box.add(p);
-  result.offset = box.centre();
-  if (!distinct_as_float(mesh.vertices, result.offset))
-    throw Error(ErrorKind::guarantee, "STL", "the 32-bit coordinates of STL would make different vertices equal",
-                "write PLY, OBJ or OFF");
-  std::string numbers;
-  for (const double v : {result.offset.x, result.offset.y, result.offset.z}) {
-    numbers += ' ';
-    append_number(numbers, v);
-  }
-  result.warnings.push_back(
-      "STL holds 32-bit coordinates only: this was subtracted from them (see the file .offset.txt beside it):" +
-      numbers);
-  if (rounding_error(mesh.vertices, result.offset) > allowed)
-    result.warnings.push_back("rounding to 32 bits moves vertices by more than 1/1000 of the spacing");
+  std::vector<std::string> more;
+  result.offset = offset_for_float(mesh, options.spacing, "STL", more);
+  if (result.offset != Vec3{})
+    result.warnings.push_back(
+        "STL holds 32-bit coordinates only: this was subtracted from them (see the file .offset.txt beside it): " +
+        three_numbers(result.offset));
+  result.warnings.insert(result.warnings.end(), more.begin(), more.end());
 }
 
 void warn_lost(const TriangleMesh& mesh, WriteResult& result) {

@@ -87,8 +87,15 @@ bool equal_ignoring_case(std::string_view a, std::string_view b) {
 std::string shown(std::string_view text) {
   constexpr std::size_t longest = 40;
   std::string result = "'";
-  for (const char c : text.substr(0, longest)) result += c >= 32 && c < 127 ? c : '?';
+  result += plain(text.substr(0, longest));
   return result + (text.size() > longest ? "...'" : "'");
+}
+
+std::string plain(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c < 32 || c >= 127) c = '?';
+  return result;
 }
 
 std::string plural(std::uint64_t count, const std::string& noun) {

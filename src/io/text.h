@@ -21,6 +21,8 @@ std::string lower_case(std::string_view text);
 bool equal_ignoring_case(std::string_view a, std::string_view b);
 /// For messages: in quotes, at most 40 characters, without control characters.
 std::string shown(std::string_view text);
+/// Without what is no printable ASCII: question marks instead.
+std::string plain(std::string_view text);
 std::string plural(std::uint64_t count, const std::string& noun);
 
 /// Each reads all of `text` or returns false. A leading plus is allowed; nan and inf in any case are

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include <eigencrust/eigencrust.h>
+#include <eigencrust/measures.h>
 
 namespace eigencrust {
 namespace {
@@ -163,6 +164,20 @@ Json json_of_input(const Report& report) {
 } // namespace
 
 std::string to_json(const MeshSummary& mesh) { return json_of(mesh).dump(2); }
+
+std::string to_json(const MeshSummary& mesh, const MeshMeasures& m, double metres) {
+  Json json = json_of(mesh);
+  json["unit_metres"] = metres > 0 ? Json(metres) : Json();
+  json["smallest_angle"] = m.smallest_angle;
+  json["largest_angle"] = m.largest_angle;
+  json["worst_aspect"] = m.worst_aspect;
+  json["edges"] = {{"shortest", m.shortest_edge}, {"median", m.median_edge}, {"longest", m.longest_edge}};
+  json["thinnest_wall"] = m.thinnest_wall ? Json(*m.thinnest_wall) : Json();
+  json["thinnest_place"] = m.thinnest_wall ? json_of(m.thinnest_place) : Json();
+  json["wall_rays"] = m.wall_rays;
+  json["printability"] = printability(mesh, m, metres);
+  return json.dump(2);
+}
 
 std::string to_json(const Report& report) {
   Json stages = Json::array(), partitions = Json::array(), dropped = Json::array();

@@ -64,6 +64,11 @@ Attribute make_attribute(std::string name, std::span<const std::uint32_t> values
   return copy_of(std::move(name), ScalarType::uint32, values);
 }
 
+Attribute derived_attribute(Attribute attribute) {
+  attribute.derived = true;
+  return attribute;
+}
+
 Attribute make_attribute(std::string name, std::span<const float> values) {
   return copy_of(std::move(name), ScalarType::float32, values);
 }
@@ -74,6 +79,7 @@ Attribute gather(const Attribute& attribute, std::span<const std::uint32_t> rows
   result.type = attribute.type;
   result.is_list = attribute.is_list;
   result.count_type = attribute.count_type;
+  result.derived = attribute.derived;
   const std::size_t size = size_of(attribute.type);
   if (!attribute.is_list) {
     result.values.resize(rows.size() * size);

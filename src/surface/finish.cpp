@@ -110,14 +110,14 @@ TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, co
   for (const Attribute& attribute : cloud.attributes) mesh.vertex_attributes.push_back(gather(attribute, source));
   std::vector<std::uint32_t> source_row = source;
   std::fill(source_row.end() - static_cast<std::ptrdiff_t>(invented), source_row.end(), no_index);
-  mesh.vertex_attributes.push_back(make_attribute("source_index", source_row));
+  mesh.vertex_attributes.push_back(derived_attribute(make_attribute("source_index", source_row)));
   if (!cloud.scan_index.empty()) {
     std::vector<std::uint32_t> scan;
     scan.reserve(source.size());
     for (const std::uint32_t row : source) scan.push_back(cloud.scan_index[row]);
-    mesh.vertex_attributes.push_back(make_attribute("scan_index", scan));
+    mesh.vertex_attributes.push_back(derived_attribute(make_attribute("scan_index", scan)));
   }
-  mesh.triangle_attributes.push_back(make_attribute("support", surface.support));
+  mesh.triangle_attributes.push_back(derived_attribute(make_attribute("support", surface.support)));
   return mesh;
 }
 

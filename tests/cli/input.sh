@@ -21,7 +21,7 @@ test_folder_as_input() {
 
 test_empty_file() {
   local name
-  for name in cloud.xyz cloud.ply cloud.csv cloud.pts cloud.off cloud.stl; do
+  for name in cloud.xyz cloud.ply cloud.csv cloud.pts cloud.off cloud.stl cloud.glb cloud.3mf; do
     : >"$name"
     expect_error 3 "$name" "$name" -o mesh.ply
     rm "$name"
@@ -72,13 +72,13 @@ test_binary_garbage() {
   # Bytes of all values. An STL of 100,000 of them would have to hold 1998.32 triangles.
   local name
   awk 'BEGIN { for (i = 0; i < 100000; ++i) printf "%c", (i * i * 7 + int(i / 11)) % 256 }' >garbage
-  for name in cloud.xyz cloud.ply cloud.csv cloud.pts cloud.off cloud.obj cloud.stl cloud.dat; do
+  for name in cloud.xyz cloud.ply cloud.csv cloud.pts cloud.off cloud.obj cloud.stl cloud.glb cloud.3mf cloud.dat; do
     cp garbage "$name"
     expect_error 3 "$name" "$name" -o mesh.ply
     expect_error 3 "$name" info "$name"
     rm "$name"
   done
-  for name in a.ply a.obj a.off a.stl; do
+  for name in a.ply a.obj a.off a.stl a.glb a.3mf; do
     cp garbage "$name"
     expect_error 3 "$name" check "$name"
     rm "$name"

@@ -40,9 +40,9 @@ test_likely_mistakes_on_the_command_line() {
 2 | it is an option of render | cloud.xyz -o mesh.ply --azimuth 30
 2 | did you mean reconstruct? | reconstrcut cloud.xyz -o mesh.ply
 2 | the verbs are reconstruct, orient, outliers | pointcloud -o mesh.ply
-2 | end it in .ply, obj, off or stl, or add --format | cloud.xyz -o mesh.docx
+2 | end it in .ply, obj, off, stl, glb or 3mf, or add --format | cloud.xyz -o mesh.docx
 2 | add --format ply | cloud.xyz -o -
-2 | use ply, obj, off or stl | cloud.xyz -o mesh.ply --format gltf
+2 | use ply, obj, off, stl, glb or 3mf | cloud.xyz -o mesh.ply --format gltf
 2 | create it first: mkdir -p nowhere/deep | cloud.xyz -o nowhere/deep/mesh.ply
 2 | name a file in it | cloud.xyz -o folder
 2 | choose another name | cloud.xyz -o cloud.xyz --format ply
@@ -76,7 +76,7 @@ test_likely_mistakes_with_files() {
   printf '{"schema": 1}\n' >report.json
   expect_table <<'END'
 3 | check | clod.xyz -o mesh.ply
-3 | use a ply, obj, off or stl file | check cloud.xyz
+3 | use a ply, obj, off, stl, glb or 3mf file | check cloud.xyz
 3 | use | empty.xyz -o mesh.ply
 3 | give points that surround a volume | plane.xyz -o mesh.ply
 3 | check that the folder exists and is writable | cloud.xyz -o /proc/mesh.ply

@@ -5,7 +5,7 @@
 test_every_format_passes_check() {
   sphere 1000 >cloud.xyz
   local name
-  for name in mesh.ply mesh.obj mesh.off mesh.stl MESH.PLY; do
+  for name in mesh.ply mesh.obj mesh.off mesh.stl mesh.glb mesh.3mf MESH.PLY; do
     expect 0 cloud.xyz -o "$name"
     expect 0 check "$name" --json
     equal "vertices of $name" "$(value out /vertices)" 1000
@@ -127,7 +127,7 @@ test_progress_off_and_bar() {
 test_failed_write_leaves_the_old_file() {
   sphere 2000 >cloud.xyz
   local name
-  for name in mesh.ply mesh.obj mesh.off mesh.stl; do
+  for name in mesh.ply mesh.obj mesh.off mesh.stl mesh.glb mesh.3mf; do
     echo "the old mesh" >"$name"
     cp "$name" old
     (

@@ -22,7 +22,7 @@ test_the_second_of_two_names_is_the_result() {
 test_standard_output() {
   sphere 500 >cloud.xyz
   local name format
-  for format in ply obj off stl; do
+  for format in ply obj off stl glb 3mf; do
     expect 0 cloud.xyz -o "wanted.$format"
     for name in - /dev/stdout; do
       status=0

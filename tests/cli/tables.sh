@@ -156,7 +156,7 @@ good.xyz:3|broken.good.xyz -o mesh.ply
 give exactly one number for each point|good.xyz -o mesh.ply --scan-index short.idx
 write rows scan,x,y,z|good.xyz -o mesh.ply --sensors words.csv
 the units are|good.xyz -o mesh.ply --unit miles
-use a ply, obj, off or stl file|check good.xyz
+use a ply, obj, off, stl, glb or 3mf file|check good.xyz
 end it in .ply|good.xyz -o mesh.docx
 END
 }

@@ -17,7 +17,7 @@ cmake --build "$work/build"
 "$work/build/consumer" "$work/sphere.ply" "$work/sphere.png"
 "$work/build/method"
 "$work/build/c_program"
-if ldd "$work/build/method" | grep -E 'libpng|libcrypto|libpugixml|libz\.'; then
+if ldd "$work/build/method" | grep -E 'libpng|libcrypto|libpugixml|libtinygltf|lib3MF|libz\.'; then
   echo "run.sh: the method alone asks for these"
   exit 1
 fi

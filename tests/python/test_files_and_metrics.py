@@ -43,7 +43,7 @@ class Files(unittest.TestCase):
 
     def test_meshes(self):
         mesh = eigencrust.Mesh(*TETRAHEDRON, vertex_attributes={"k": range(4)}, triangle_attributes={"t": range(4)})
-        for name in ("mesh.ply", "mesh.obj", "mesh.off", "mesh.stl"):
+        for name in ("mesh.ply", "mesh.obj", "mesh.off", "mesh.stl", "mesh.glb", "mesh.3mf"):
             path = self.folder / name
             self.assertTrue(eigencrust.can_write_mesh(path))
             with self.assertLogs("eigencrust") if name != "mesh.ply" else self.assertNoLogs("eigencrust"):

@@ -7,6 +7,7 @@
 
 #include "e57_bytes.h"
 #include "las_bytes.h"
+#include "scene_bytes.h"
 #include "support.h"
 #include "zip_bytes.h"
 
@@ -34,7 +35,7 @@ TriangleMesh small_mesh() {
 std::vector<Sample> samples() {
   const TempDir folder;
   std::vector<Sample> result;
-  for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"}) {
+  for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl", "a.glb", "a.3mf"}) {
     write_mesh(folder / name, small_mesh());
     result.push_back({name, read_bytes(folder / name)});
   }
@@ -83,6 +84,13 @@ std::vector<Sample> samples() {
                                        {"sensor_position.npy", npy_file("<f8", "(3,)", std::string(24, 'a'), true)},
                                        {"l.npy", npy_file("|u1", "(2,)", "12")}})});
   result.push_back({"b.npz", zip_file({{.name = "a.npy", .content = array, .large = true}})});
+  result.push_back({"b.glb", glb_triangle(R"({"children":[1],"rotation":[0,1,0,1]},{"mesh":0,"scale":[1,2,-3]})")});
+  result.push_back(
+      {"b.3mf", three_mf_file("<model unit='inch'><resources><basematerials id='7'><base name='a' "
+                              "displaycolor='#FF0000'/></basematerials><object id='1' pid='7' pindex='0'>" +
+                              three_mf_mesh("p1='0'") +
+                              "</object></resources><build><item objectid='1' transform='1 0 0 0 1 0 0 0 1 "
+                              "0 0 10'/></build></model>")});
   result.push_back({"unknown", "1 2 3\n4 5 6\n"});
   return result;
 }

@@ -175,7 +175,7 @@ TEST_F(IoPoints, ContentDecidesWhereTheExtensionSaysNothing) {
                 .points.size(),
             1u);
   EXPECT_THAT(read("a.dat", "solid\nendsolid\n").points, IsEmpty());
-  EXPECT_THAT(error("a.glb", "glTF\x01\x02"), HasSubstr("this is a glTF model"));
+  EXPECT_THAT(error("a.gltf", "{ \"asset\": {}}"), HasSubstr("this is a glTF model in several files"));
   EXPECT_THAT(error("a.abc", "abcd\x01\x02"), HasSubstr("format is not known"));
   EXPECT_THAT(error("a.e57", ""), HasSubstr("no E57 signature"));
   EXPECT_THAT(error("a.dat", std::string(200, '\0')), HasSubstr("format is not known"));
