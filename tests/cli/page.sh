@@ -98,3 +98,12 @@ test_page_where_surface_is_cut_away_or_added() {
     equal "marks with '$how'" "$(value scene.json /buffers/mesh.invented/count)" "$(value scene.json /mesh/all)"
   done
 }
+
+# Other triangles than those of the surface that was found have marks, too.
+test_page_of_fewer_triangles() {
+  with_viewer
+  sphere 2000 | awk '$3 < 0.8' >cloud.xyz
+  expect 0 cloud.xyz -o mesh.ply --report page.html --triangles 400
+  data scene page.html >scene.json
+  equal marks "$(value scene.json /buffers/mesh.invented/count)" "$(value scene.json /mesh/all)"
+}

@@ -23,11 +23,18 @@ export function measured() {
   if (knowsOutliers)
     lines.push(
       `${grouped(scene.points.all)} of them lie on the surface that was found, or as near to it as spacing and ` +
-        `noise explain.`,
+        "noise explain.",
     );
   if (knowsInvented && !report.options.trim)
     lines.push(`${percent(1 - share)} of the surface's area is borne out by points right there.`);
-  if (report.moved === null && knowsInvented)
+  const other = report.simplified;
+  if (other)
+    lines.push(
+      `The mesh was then made of ${grouped(other.after.triangles)} triangles instead of ` +
+        `${grouped(other.before.triangles)}, which moved the surface by ` +
+        `${rounded(other.error.from_full.mean)} on average and ${rounded(other.error.from_full.max)} at most.`,
+    );
+  if (report.moved === null && !other && knowsInvented)
     lines.push(
       "Every corner of the mesh is one of the measured points, digit for digit" +
         (report.base ? ", but for those of the base." : "."),
