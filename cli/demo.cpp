@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <iostream>
 
+#include "bundled.h"
 #include "command.h"
 #include "files.h"
 
@@ -9,20 +10,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The bundled scan: beside an installed program, else beside the one that was built.
+/// The bundled scan, named in the shorter of two ways, for people to read.
 fs::path bundled_scan() {
+  const std::optional<fs::path> scan = find_bundled(fs::path("examples") / "teapot_scan.ply");
+  if (!scan)
+    throw Error(ErrorKind::input, "demo", "the bundled scan teapot_scan.ply was not found",
+                "run it from the source tree or install the program");
   std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  for (const char* place : {EIGENCRUST_EXAMPLES_INSTALLED, "examples"}) {
-    const fs::path folder = program.parent_path() / place;
-    const fs::path scan = folder / "teapot_scan.ply";
-    if (!fs::is_regular_file(scan, ignored)) continue;
-    // The shorter of the two names, for people to read.
-    const fs::path whole = scan.lexically_normal(), from_here = fs::proximate(whole, ignored);
-    return ignored || from_here.native().size() >= whole.native().size() ? whole : from_here;
-  }
-  throw Error(ErrorKind::input, "demo", "the bundled scan teapot_scan.ply was not found",
-              "run it from the source tree or install the program");
+  const fs::path from_here = fs::proximate(*scan, ignored);
+  return ignored || from_here.native().size() >= scan->native().size() ? *scan : from_here;
 }
 
 } // namespace

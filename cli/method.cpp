@@ -9,6 +9,7 @@
 
 #include "files.h"
 #include "messages.h"
+#include "page.h"
 #include "standard_streams.h"
 
 namespace eigencrust::cli {
@@ -53,7 +54,8 @@ void add_output_options(OptionTable& app, Request& r, const std::string& what) {
   app.add_option("-o,--output", r.output, what)->type_name(file_to_write);
   app.add_option("--format", r.format, "Format of the result, instead of that of its name's ending; needed with -o -")
       ->type_name("NAME");
-  app.add_option("--report", r.report, "Write what was done and found as JSON")->type_name(file_to_write);
+  app.add_option("--report", r.report, "Write what was done and found: .html, a page to look at; else JSON")
+      ->type_name(file_to_write);
   app.add_flag("--each", r.each,
                "Each input is a job of its own; {} in -o and --report stands for its name: -o meshes/{}.ply");
 }
@@ -157,6 +159,7 @@ void check_outputs(const Request& r, OutputKind kind) {
   namespace fs = std::filesystem;
   for (const std::string& path : {r.output, r.report}) check_place(path);
   check_format(r, kind);
+  if (is_page(r.report)) read_viewer(r.report);
   check_files({inputs_of(r), outputs_of(r), {}});
   for (const std::string& path : {r.output, r.report})
     if (!path.empty() && !is_standard_output(path)) require_writable(path);
@@ -171,6 +174,7 @@ MethodRun::MethodRun(const Request& request, std::vector<std::string> command, O
   forget_files();
   check_outputs(request, kind);
   observer_ = make_observer(request.progress, request.dump_stages, request.quiet);
+  if (is_page(request.report)) page_ = std::make_unique<PageObserver>(*observer_);
   FileStage stage(*observer_, "reading");
   cloud = read_inputs(request.input, read_, [&](double fraction) { stage.progress(fraction); });
   stage.end();
@@ -203,7 +207,11 @@ void MethodRun::reconstruct(const Options& options) {
   const auto smoothing = request_.method.find("smoothing");
   if (smoothing != request_.method.end() && smoothing->second.text && options.smooth == 0)
     warn_at_once("--smoothing has no effect without --smooth N");
-  result = eigencrust::reconstruct(cloud, options, *observer_);
+  Options complete = options;
+  // A page shows outliers, of which the other methods know nothing.
+  complete.point_results = options.point_results || (page_ && options.method == Method::eigencrust);
+  result = eigencrust::reconstruct(cloud, complete, page_ ? *page_ : *observer_);
+  if (page_) page_->finished(cloud, result);
   name_rows_of_files();
   result.report.command = command_;
   result.report.files = std::move(read_.files);
@@ -225,7 +233,10 @@ void MethodRun::finish(const std::function<WriteResult(OutputFiles&, const std::
   report.warnings.insert(report.warnings.end(), written.warnings.begin(), written.warnings.end());
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   report.peak_memory_bytes = peak_memory_bytes();
-  if (!request_.report.empty()) {
+  if (page_) {
+    const std::string viewer = read_viewer(request_.report);
+    files.add(request_.report, [&](std::ostream& out) { write_page(out, viewer, result, page_->products()); });
+  } else if (!request_.report.empty()) {
     const std::string text = to_json(report) + "\n";
     files.add(real_output(request_.report), [&](std::ostream& out) { out << text; });
   }

@@ -8,6 +8,8 @@
 #include <map>
 #include <optional>
 
+#include <eigencrust/page.h>
+
 #include "command.h"
 #include "progress.h"
 
@@ -80,6 +82,7 @@ class MethodRun {
   std::vector<std::string> command_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::unique_ptr<Observer> observer_;
+  std::unique_ptr<PageObserver> page_; ///< where the report is a page
   ReadReport read_;
   std::vector<std::string> told_; ///< warnings printed before the work
   void warn_at_once(const std::string& text);

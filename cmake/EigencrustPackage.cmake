@@ -44,6 +44,34 @@ License: GPL-3.0-or-later
  This program is free software under the GNU General Public License, version 3
  or later. On Debian systems its text is in /usr/share/common-licenses/GPL-3.
 ")
+if(EXISTS ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/viewer.html)
+  file(APPEND ${debian}/copyright "
+Files: viewer/*
+Copyright: 2010-2025 three.js authors
+           2026 the Eigencrust authors
+License: GPL-3.0-or-later and Expat
+Comment: the viewer of pages, usr/share/eigencrust/viewer.html, contains three.js.
+
+License: Expat
+ Permission is hereby granted, free of charge, to any person obtaining a copy
+ of this software and associated documentation files (the \"Software\"), to deal
+ in the Software without restriction, including without limitation the rights
+ to use, copy, modify, merge, publish, distribute, sublicense, and/or sell
+ copies of the Software, and to permit persons to whom the Software is
+ furnished to do so, subject to the following conditions:
+ .
+ The above copyright notice and this permission notice shall be included in
+ all copies or substantial portions of the Software.
+ .
+ THE SOFTWARE IS PROVIDED \"AS IS\", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR
+ IMPLIED, INCLUDING BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY,
+ FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE
+ AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER
+ LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+ OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
+ SOFTWARE.
+")
+endif()
 install(FILES ${debian}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/eigencrust)
 # The time is SOURCE_DATE_EPOCH where that is set.
 string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)

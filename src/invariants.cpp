@@ -236,9 +236,9 @@ std::string fault_in(const TetrahedronLabels& labels, const Scene& scene, const 
 std::string fault_in(const Surface& surface, const Scene& scene, const TetrahedronLabels& labels,
                      const Options& options) {
   const Tetrahedralization& t = scene.tetrahedralization;
-  const auto& [mesh, sample_of, inside, support] = surface;
+  const auto& [mesh, sample_of, inside, support, unsupported] = surface;
   if (mesh.vertices.size() != sample_of.size() || mesh.triangles.size() != inside.size() ||
-      mesh.triangles.size() != support.size())
+      mesh.triangles.size() != support.size() || (!unsupported.empty() && mesh.triangles.size() != unsupported.size()))
     return "the surface's lists are not as long";
   for (std::size_t v = 0; v < sample_of.size(); ++v)
     if (sample_of[v].value >= t.sample_count || (v > 0 && !(sample_of[v - 1] < sample_of[v])) ||

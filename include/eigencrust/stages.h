@@ -189,6 +189,8 @@ struct Surface {
   std::vector<SampleIndex> sample_of;
   std::vector<TetrahedronIndex> inside; ///< the tetrahedron behind each triangle
   std::vector<float> support;           ///< of each triangle, see measure_support
+  /// Of each triangle: 1 where the samples do not bear it out, see unsupported_triangles; empty until that is known.
+  std::vector<std::uint8_t> unsupported{};
 };
 Surface extract_surface(const Tetrahedralization& tetrahedralization, const Labels& labels, const Threads& threads);
 

@@ -40,7 +40,7 @@ void warn_of_noise(const SampleModel& model, Run& run) {
   run.warn("the noise is larger than the samples are apart (standard deviation " + length(deviation) +
            "): edges become round, and parts thinner than about " +
            length(2 * static_cast<double>(noise_bound) * deviation) +
-           " may be missing or grown together. If that is too much, --noise takes its standard deviation");
+           " may be missing or grown together; if that is too much, --noise takes its standard deviation");
 }
 
 /// What the options promise and the mesh is not.
@@ -105,8 +105,11 @@ void describe(const Tetrahedralization& t, Run& run) {
   constexpr double usual = 7, many = 3 * usual; // per sample; points that fill a volume have 6.8
   const double share = static_cast<double>(t.tetrahedra.size()) / static_cast<double>(t.sample_count);
   if (share > many)
-    run.warn("there are " + std::to_string(std::lround(share)) + " tetrahedra per sample instead of " +
-             std::to_string(std::lround(usual)) + ": the run takes as many times the memory and time of the forecast");
+    run.warn(
+        "there are " + std::to_string(std::lround(share)) + " tetrahedra per sample instead of " +
+        std::to_string(std::lround(usual)) +
+        ": the run takes as many times the memory and time of the forecast; if that is too much, --thin leaves out "
+        "points");
 }
 
 void describe(const Poles& poles, Run& run) { run.count("poles", poles.tetrahedron.size()); }
@@ -138,7 +141,7 @@ void describe(const Partition& partition, Run& run) {
   run.report().undecided_nodes += partition.undecided;
   if (partition.status == SolverStatus::not_converged)
     run.warn("the solver of the " + entry.stage + " stopped before the signs settled (residual " +
-             std::to_string(partition.residual) + ")");
+             std::to_string(partition.residual) + "); --max-steps gives it more time");
   if (entry.stage == "tetrahedra" && supernodes_agree(partition))
     run.warn("the second eigenvector puts inside and outside on the same side; use --second-stage cut");
 }
@@ -160,8 +163,10 @@ void describe(const ManifoldCounts& counts, Run& run) {
   run.count("vertices_repaired", static_cast<double>(counts.vertices));
   run.count("tetrahedra_relabelled", static_cast<double>(counts.relabelled));
   if (counts.overruled > 0)
-    run.warn(std::to_string(counts.overruled) +
-             " tetrahedra named inside or outside were overruled by the manifold repair");
+    run.warn(
+        std::to_string(counts.overruled) +
+        " tetrahedra named inside or outside were overruled by the manifold repair; check the points named, or leave "
+        "the labels as they are with --no-manifold");
 }
 
 void describe(const HandleCounts& counts, Run& run) { run.count("closed", static_cast<double>(counts.closed)); }
@@ -175,7 +180,8 @@ void describe(const Contradictions& contradictions, Run& run) {
   constexpr double usual = 0.05;
   if (share > usual)
     run.warn(std::to_string(std::lround(100 * share)) +
-             " % of the lines of sight cross what was found to be inside: check the sensors' places, or ignore them");
+             " % of the lines of sight cross what was found to be inside; check the sensors' places, or ignore them "
+             "with --sensors none");
 }
 
 void describe(const std::vector<DroppedComponent>& dropped, Run& run) {

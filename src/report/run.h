@@ -53,6 +53,7 @@ class Run {
   }
   void warn(std::string text) { report_.warnings.push_back(std::move(text)); }
 
+  [[nodiscard]] bool wants_products() { return observer_.wants_products(); }
   /// Hands the last stage's product to an observer that wants it; made only then.
   template <class Make>
   void product(const std::string& name, Make&& make) {

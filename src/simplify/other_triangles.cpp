@@ -73,6 +73,7 @@ void put_in_place(OtherTriangles made, const TriangleTree& tree, const Threads& 
   surface.sample_of = taken(surface.sample_of, origin.vertex);
   surface.support = taken(surface.support, origin.triangle);
   surface.inside = taken(surface.inside, origin.triangle);
+  if (!surface.unsupported.empty()) surface.unsupported = taken(surface.unsupported, origin.triangle);
   surface.mesh = std::move(made.mesh);
 }
 

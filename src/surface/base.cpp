@@ -219,6 +219,7 @@ Base close_with_base(Axis front, const SampleModel& model, const Vec3& origin, S
   base.vertices = count + 1;
   surface.support.resize(mesh.triangles.size(), 0);
   surface.inside.resize(mesh.triangles.size());
+  if (!surface.unsupported.empty()) surface.unsupported.resize(mesh.triangles.size(), 1);
   return base;
 }
 

@@ -137,6 +137,7 @@ void drop_triangles(std::span<const std::uint8_t> gone, Surface& surface) {
       rest.mesh.triangles.push_back({vertex_of[a], vertex_of[b], vertex_of[c]});
       rest.inside.push_back(surface.inside[i]);
       rest.support.push_back(surface.support[i]);
+      if (!surface.unsupported.empty()) rest.unsupported.push_back(surface.unsupported[i]);
     }
   surface = std::move(rest);
 }

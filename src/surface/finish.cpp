@@ -7,6 +7,7 @@
 #include "fit/uncross.h"
 #include "geometry/exact_difference.h"
 #include "numerics/quantile.h"
+#include "report/snapshots.h"
 #include "simplify/other_triangles.h"
 #include "surface/base.h"
 #include "surface/surface.h"
@@ -170,9 +171,11 @@ TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene
   std::optional<Base>& base = run.report().base;
   base.reset();
   if (options.base) base = put_on_base(surface, scene, moved, run.report().surroundings.front);
-  return run.stage("attributes", [&] {
+  TriangleMesh mesh = run.stage("attributes", [&] {
     return finish_mesh(surface, scene.tetrahedralization, cloud, moved, base ? base->vertices : 0);
   });
+  run.product("mesh", [&] { return snapshot_of_mesh(mesh, surface); });
+  return mesh;
 }
 
 void check(const TriangleMesh& mesh, const PointCloud& cloud, const Scene& scene, const ValidateOptions& checks,

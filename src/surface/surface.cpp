@@ -94,9 +94,9 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   const SampleModel& model = scene.measures.model;
   const SampleLengths& grid = scene.measures.grid;
   Surface surface = run.stage("surface", [&] { return extract_surface(t, labels.labels(), threads); });
-  run.product("surface", [&] { return snapshot_of_surface(t, surface); });
   run.stage("support", [&] { measure_support(t, labels, model, grid, surface, threads); });
   const bool found = !surface.mesh.triangles.empty();
+  const Surface all = run.wants_products() ? surface : Surface();
   run.stage("components",
             [&] { return filter_components(surface, options.components, t, model, labels.labels(), threads); });
   require_surface(surface, found);
@@ -117,11 +117,13 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
     const double share = share_of_area(surface, marked);
     return UnsupportedTriangles{std::move(marked), share};
   });
+  surface.unsupported = unsupported.marked;
   if (options.trim) trim(std::move(unsupported.marked), surface);
   if (options.trim || (is_open && !options.base)) {
     describe(filter_components(surface, options.components, t, model, labels.labels(), threads), run);
     require_trimmed(surface);
   }
+  run.product("surface", [&] { return snapshot_of_surface(t, all, surface); });
   return surface;
 }
 

@@ -157,6 +157,7 @@ void close_smallest_rims(const Tetrahedralization& t, const VertexStars& stars, 
     surface.mesh.triangles.push_back({a, b, c});
     surface.inside.push_back(behind);
     surface.support.push_back(0);
+    if (!surface.unsupported.empty()) surface.unsupported.push_back(1);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "report/snapshots.h"
 #include "tetrahedra/growth.h"
 
 namespace eigencrust {
@@ -61,6 +62,7 @@ Scene make_scene(const PointCloud& cloud, const Context& context) {
   triangulate_and_measure(cloud, std::move(samples), context, scene);
   describe(scene.measures, run);
   const Tetrahedralization& t = scene.tetrahedralization;
+  run.product("samples", [&] { return snapshot_of_samples(t, scene.measures.model); });
   scene.stars = run.stage("stars", [&] { return vertex_stars(t, threads); });
   scene.poles = run.stage(
       "poles", [&] { return find_poles(t, scene.stars, reach_for_poles(scene.measures), options.weights, threads); });

@@ -228,7 +228,9 @@ test_numbers_do_not_depend_on_the_locale() {
 test_dump_stages() {
   sphere 500 >cloud.xyz
   expect 0 cloud.xyz -o mesh.ply --dump-stages stages
-  [ "$(find stages -name '*.ply' | wc -l)" -ge 2 ] || die "less than two products"
+  equal products "$(cd stages && echo *)" "01_samples.ply 02_poles.ply 03_tetrahedra.ply 04_surface.ply 05_mesh.ply"
+  sed '/end_header/q' stages/04_surface.ply | grep -aqx 'property uchar kept' || die "not told what was kept"
+  sed '/end_header/q' stages/05_mesh.ply | grep -aqx 'property uchar unsupported' || die "not told what was invented"
   expect 0 cloud.xyz -o plain.ply
   same mesh.ply plain.ply # looking on changes nothing
 }
