@@ -32,6 +32,27 @@ TriangleMesh small_mesh() {
   return mesh;
 }
 
+void add_scanner_files(std::vector<Sample>& result) {
+  result.push_back({"a.ptx",
+                    "2\n1\n1 2 3\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1 2 3 1\n1 2 3 .5 7 8 9\n0 0 0 .5 "
+                    "0 0 0\n1\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n4 5 6 .5\n"});
+  const std::string pcd =
+      "VERSION 0.7\nFIELDS x y z rgb l\nSIZE 4 4 4 4 1\nTYPE F F F U I\nCOUNT 1 1 1 1 2\nWIDTH 2\n"
+      "HEIGHT 1\nVIEWPOINT 1 2 3 1 0 0 0\nPOINTS 2\nDATA ";
+  result.push_back({"a.pcd", pcd + "ascii\n1 2 3 4 5 6\n7 8 nan 10 -11 12\n"});
+  result.push_back({"b.pcd", pcd + "binary\n" + std::string(36, 'a')});
+  result.push_back({"c.pcd", pcd + "binary_compressed\n" + std::string("\5\0\0\0\x24\0\0\0\0a\xe0\x1a\0", 13)});
+  E57TestScan scan;
+  scan.records = 2;
+  for (const char* name : {"X", "Y", "Z"})
+    scan.fields.push_back({std::string("<cartesian") + name + " type=\"Float\"/>", std::string(16, 'a')});
+  result.push_back({"a.e57", e57_file({scan})});
+  LasTestFile las{.minor = 4, .record_bytes = 23, .records = {std::string(23, 'a'), std::string(23, 'b')}};
+  las.variable_records = las_record("LASF_Spec", 4, las_extra(12, 8, "pair") + las_extra(1, 0, "byte"));
+  las.variable_count = 1;
+  result.push_back({"a.las", las.bytes()});
+}
+
 std::vector<Sample> samples() {
   const TempDir folder;
   std::vector<Sample> result;
@@ -59,25 +80,8 @@ std::vector<Sample> samples() {
                     "endfacet\nendsolid s\n"});
   result.push_back({"b.off", "COFF\n# c\n3 1 3\n0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n3 0 1 2\n"});
   result.push_back({"b.obj", "v 0 0 0 1 0 0\nv 1 0 \\\n0\nv 0 1 0 1\nf 1//1 2/2 -1\nf 3 2 1\n"});
+  add_scanner_files(result);
   result.push_back({"a.txt", "# x y z r\n1 2 3 4\n-1e5;nan,3 255\n"});
-  result.push_back({"a.ptx",
-                    "2\n1\n1 2 3\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1 2 3 1\n1 2 3 .5 7 8 9\n0 0 0 .5 "
-                    "0 0 0\n1\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n4 5 6 .5\n"});
-  const std::string pcd =
-      "VERSION 0.7\nFIELDS x y z rgb l\nSIZE 4 4 4 4 1\nTYPE F F F U I\nCOUNT 1 1 1 1 2\nWIDTH 2\n"
-      "HEIGHT 1\nVIEWPOINT 1 2 3 1 0 0 0\nPOINTS 2\nDATA ";
-  result.push_back({"a.pcd", pcd + "ascii\n1 2 3 4 5 6\n7 8 nan 10 -11 12\n"});
-  result.push_back({"b.pcd", pcd + "binary\n" + std::string(36, 'a')});
-  result.push_back({"c.pcd", pcd + "binary_compressed\n" + std::string("\5\0\0\0\x24\0\0\0\0a\xe0\x1a\0", 13)});
-  E57TestScan scan;
-  scan.records = 2;
-  for (const char* name : {"X", "Y", "Z"})
-    scan.fields.push_back({std::string("<cartesian") + name + " type=\"Float\"/>", std::string(16, 'a')});
-  result.push_back({"a.e57", e57_file({scan})});
-  LasTestFile las{.minor = 4, .record_bytes = 23, .records = {std::string(23, 'a'), std::string(23, 'b')}};
-  las.variable_records = las_record("LASF_Spec", 4, las_extra(12, 8, "pair") + las_extra(1, 0, "byte"));
-  las.variable_count = 1;
-  result.push_back({"a.las", las.bytes()});
   const std::string array = npy_file("<f4", "(2, 3)", std::string(24, 'a'));
   result.push_back({"a.npy", array});
   result.push_back({"a.npz", zip_file({{"points.npy", array, deflate_stored(array), 8},

@@ -128,9 +128,18 @@ TEST(Options, ThePapersPresetIsThePaper) {
   EXPECT_EQ(paper.smooth, 0u);
 }
 
+using Change = std::function<void(Options&)>;
+
+void expect_refused(const std::vector<Change>& changes) {
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    Options options;
+    changes[i](options);
+    EXPECT_NE(refusal([&] { check_options(options); }), "") << "change " << i;
+  }
+}
+
 TEST(Options, WhatIsOutOfRangeIsRefused) {
-  using Change = std::function<void(Options&)>;
-  const std::vector<Change> changes{
+  expect_refused({
       [](Options& o) {
         o.grid_spacing = {LengthChoice::Kind::length, 0};
       },
@@ -163,6 +172,18 @@ TEST(Options, WhatIsOutOfRangeIsRefused) {
       [](Options& o) { o.crossing_depth = nan; },
       [](Options& o) { o.crossing_depth = infinity; },
       [](Options& o) { o.smooth = 1001; },
+      [](Options& o) { o.threads = 1025; },
+      [](Options& o) {
+        o.outside_points = {{0, nan, 0}};
+      },
+      [](Options& o) {
+        o.inside_points = {{0, 0, 0}, {infinity, 0, 0}};
+      },
+  });
+}
+
+TEST(Options, WhatIsOutOfRangeForOtherTrianglesIsRefused) {
+  expect_refused({
       [](Options& o) {
         o.max_error = {SurfaceLength::Kind::percent, 0};
       },
@@ -181,19 +202,7 @@ TEST(Options, WhatIsOutOfRangeIsRefused) {
         o.triangles = 10;
         o.method = Method::powercrust;
       },
-      [](Options& o) { o.threads = 1025; },
-      [](Options& o) {
-        o.outside_points = {{0, nan, 0}};
-      },
-      [](Options& o) {
-        o.inside_points = {{0, 0, 0}, {infinity, 0, 0}};
-      },
-  };
-  for (std::size_t i = 0; i < changes.size(); ++i) {
-    Options options;
-    changes[i](options);
-    EXPECT_NE(refusal([&] { check_options(options); }), "") << "change " << i;
-  }
+  });
 }
 
 TEST(Options, LengthsOfTheResultAreReadInThreeUnits) {
