@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Parts, thin walls and what else people bring: the generators of the group `field`, and its measures.
+#include <eigencrust/eigencrust.h>
 #include <eigencrust/io.h>
 #include <eigencrust/metrics.h>
 #include <eigencrust/validate.h>
@@ -13,6 +14,7 @@
 #include "clouds.h"
 #include "field_scenes.h"
 #include "measures.h"
+#include "open_scenes.h"
 #include "parts.h"
 #include "runner.h"
 #include "sampling.h"
@@ -303,6 +305,15 @@ TEST(FieldCases, AreTheSameCloudEveryTime) {
     }
     EXPECT_EQ(prints[0], prints[1]) << name;
   }
+}
+
+TEST(Hidden, HousesStandOnWhatTheirRoofsHide) {
+  const PointCloud cloud = houses_from_the_air(0.5, 0.02, 1, 2).cloud;
+  Options options;
+  options.facade = Axis::plus_z;
+  const Result result = reconstruct(cloud, options);
+  EXPECT_GT(result.mesh.vertices.size(), 97 * cloud.points.size() / 100);
+  EXPECT_EQ(result.report.mesh.boundary_loops, 1u);
 }
 
 } // namespace

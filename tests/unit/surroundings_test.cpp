@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "evidence/surroundings.h"
 
-#include <eigencrust/eigencrust.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -10,7 +9,6 @@
 
 #include "clouds.h"
 #include "evidence/hidden.h"
-#include "open_scenes.h"
 
 namespace eigencrust {
 namespace {
@@ -148,15 +146,6 @@ TEST(Hidden, IsWhatLiesBehindSamplesAndBeforeNone) {
   }
   EXPECT_GT(hiding, 0.9 * under);          // slivers between two lines are crossed by none
   EXPECT_LT(free_but_hiding, 0.05 * free); // and some lean out from below the roof
-}
-
-TEST(Hidden, HousesStandOnWhatTheirRoofsHide) {
-  const PointCloud cloud = bench::houses_from_the_air(0.5, 0.02, 1, 2).cloud;
-  Options options;
-  options.facade = Axis::plus_z;
-  const Result result = reconstruct(cloud, options);
-  EXPECT_GT(result.mesh.vertices.size(), 97 * cloud.points.size() / 100);
-  EXPECT_EQ(result.report.mesh.boundary_loops, 1u);
 }
 
 } // namespace
