@@ -146,14 +146,23 @@ void trim(std::vector<std::uint8_t> unsupported, Surface& surface) {
 
 void close_smallest_rims(const Tetrahedralization& t, const VertexStars& stars, Surface& surface) {
   const std::vector<std::uint32_t> next = along_rims(surface.mesh);
+  DisjointSets pieces(next.size());
+  for (const auto& [a, b, c] : surface.mesh.triangles) {
+    pieces.unite(a, b);
+    pieces.unite(b, c);
+  }
+  std::vector<std::uint32_t> edges(next.size(), 0); // at the rims of each piece
+  for (std::uint32_t v = 0; v < next.size(); ++v)
+    if (next[v] != no_index) ++edges[pieces.find(v)];
   for (std::uint32_t c = 0; c < next.size(); ++c) {
-    if (next[c] == no_index) continue;
+    if (next[c] == no_index || edges[pieces.find(c)] <= 3) continue; // the rim that the piece ends at stays
     const std::uint32_t b = next[c], a = next[b];
     if (next[a] != c || c > a || c > b) continue;
     // The new triangle runs the other way round.
     const std::array<SampleIndex, 3> samples{surface.sample_of[a], surface.sample_of[b], surface.sample_of[c]};
     const TetrahedronIndex behind = tetrahedron_behind(t, stars, samples);
     if (!behind.valid()) continue;
+    edges[pieces.find(c)] -= 3;
     surface.mesh.triangles.push_back({a, b, c});
     surface.inside.push_back(behind);
     surface.support.push_back(0);

@@ -31,7 +31,7 @@ struct UnsupportedTriangles {
 /// manifold surface stays one, with boundary.
 void trim(std::vector<std::uint8_t> unsupported, Surface& surface);
 /// Rims of three edges, in which no sample is missing, get the triangle between them if it is a face of the
-/// tetrahedralization.
+/// tetrahedralization and the piece has another rim.
 void close_smallest_rims(const Tetrahedralization& tetrahedralization, const VertexStars& stars, Surface& surface);
 
 } // namespace eigencrust

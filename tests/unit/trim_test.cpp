@@ -192,6 +192,15 @@ TEST(Trim, OnlyRimsOfThreeEdgesAreClosed) {
   EXPECT_EQ(hull.surface.support.size(), m.triangles);
 }
 
+TEST(Trim, TheRimThatAPieceEndsAtStays) {
+  Hull hull(clouds::sphere(200));
+  std::vector<std::uint8_t> gone(hull.surface.mesh.triangles.size(), 1);
+  gone[7] = 0;
+  trim(gone, hull.surface);
+  close_smallest_rims(hull.p.t, hull.p.stars, hull.surface);
+  EXPECT_EQ(hull.surface.mesh.triangles.size(), 1u);
+}
+
 TEST(OneSidedScan, AllLinesWithinSixtyDegreesOfTheirMean) {
   const Prepared p = clouds::prepare(clouds::random_box(40, 9));
   const auto lines_at = [&](double degrees) { // two directions, in turn
