@@ -99,11 +99,13 @@ Outcome outcome_of(RandomRun& run, std::uint64_t seed) {
 // A run that hangs is a finding, too; a handler can reach nothing but what has static storage.
 volatile std::sig_atomic_t running_low = 0, running_high = 0;
 
-void on_hang(int) {
+/// Names the seed that was running when the time was over, or when an assertion failed.
+void on_end(int signal) {
   const auto seed = static_cast<std::uint64_t>(static_cast<std::uint32_t>(running_high)) << 31 |
                     static_cast<std::uint32_t>(running_low);
   char text[100];
-  const int size = std::snprintf(text, sizeof text, "seed %llu: hangs\n", static_cast<unsigned long long>(seed));
+  const int size = std::snprintf(text, sizeof text, "seed %llu: %s\n", static_cast<unsigned long long>(seed),
+                                 signal == SIGABRT ? "aborts" : "hangs");
   [[maybe_unused]] const ssize_t ignored = write(STDOUT_FILENO, text, static_cast<std::size_t>(size));
   _exit(1);
 }
@@ -113,8 +115,9 @@ void watch(std::uint64_t seed) {
   constexpr unsigned patience = 600, busy = 4;
   running_low = static_cast<std::sig_atomic_t>(seed & 0x7fffffffu);
   running_high = static_cast<std::sig_atomic_t>(seed >> 31 & 0x7fffffffu);
-  std::signal(SIGALRM, on_hang);
-  std::signal(SIGPROF, on_hang);
+  std::signal(SIGALRM, on_end);
+  std::signal(SIGPROF, on_end);
+  std::signal(SIGABRT, on_end);
   alarm(busy * patience); // a run that waits for ever uses no processor
   const itimerval timer{{0, 0}, {patience, 0}};
   setitimer(ITIMER_PROF, &timer, nullptr);

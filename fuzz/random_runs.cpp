@@ -182,10 +182,23 @@ SurfaceLength surface_length(Dice& dice) {
   }
 }
 
+/// As above, but long enough that there are not hundreds of triangles for each sample.
+SurfaceLength edge_length(Dice& dice) {
+  using Kind = SurfaceLength::Kind;
+  switch (dice.below(3)) {
+    case 0:
+      return {Kind::length, std::pow(10.0, dice.between(-1, 0))};
+    case 1:
+      return {Kind::percent, dice.between(2, 30)};
+    default:
+      return {Kind::sigma, dice.between(1, 10)};
+  }
+}
+
 void choose_triangles(Dice& dice, Options& o) {
   if (!o.manifold || !dice.one_in(3)) return;
   if (dice.one_in(3)) {
-    o.edge = surface_length(dice);
+    o.edge = edge_length(dice);
     return;
   }
   const bool by_error = dice.one_in(2);

@@ -157,7 +157,7 @@ void close_smallest_rims(const Tetrahedralization& t, const VertexStars& stars, 
   for (std::uint32_t c = 0; c < next.size(); ++c) {
     if (next[c] == no_index || edges[pieces.find(c)] <= 3) continue; // the rim that the piece ends at stays
     const std::uint32_t b = next[c], a = next[b];
-    if (next[a] != c || c > a || c > b) continue;
+    if (a == no_index || next[a] != c || c > a || c > b) continue; // a rim may end where the mesh is no manifold
     // The new triangle runs the other way round.
     const std::array<SampleIndex, 3> samples{surface.sample_of[a], surface.sample_of[b], surface.sample_of[c]};
     const TetrahedronIndex behind = tetrahedron_behind(t, stars, samples);

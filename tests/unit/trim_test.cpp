@@ -201,6 +201,22 @@ TEST(Trim, TheRimThatAPieceEndsAtStays) {
   EXPECT_EQ(hull.surface.mesh.triangles.size(), 1u);
 }
 
+TEST(Trim, RimsThatEndAtAnEdgeOfThreeTrianglesAreLeft) {
+  Hull hull(clouds::sphere(200));
+  auto& triangles = hull.surface.mesh.triangles;
+  const std::size_t whole = triangles.size();
+  const std::uint32_t far = triangles[100][0];
+  for (const std::size_t i : {7, 11}) { // fins that stand across the inside
+    const auto [a, b, c] = triangles[i];
+    triangles.push_back({a, b, far});
+    hull.surface.inside.push_back(hull.surface.inside[i]);
+    hull.surface.support.push_back(1);
+  }
+  ASSERT_EQ(validate(hull.surface.mesh).nonmanifold_edges, 2u);
+  close_smallest_rims(hull.p.t, hull.p.stars, hull.surface);
+  EXPECT_EQ(triangles.size(), whole + 2);
+}
+
 TEST(OneSidedScan, AllLinesWithinSixtyDegreesOfTheirMean) {
   const Prepared p = clouds::prepare(clouds::random_box(40, 9));
   const auto lines_at = [&](double degrees) { // two directions, in turn
