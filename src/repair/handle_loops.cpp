@@ -27,10 +27,30 @@ std::vector<Edge> edges_of(std::span<const Triangle> triangles, std::size_t vert
   return edges;
 }
 
+/// Euler's formula for closed surfaces; one face closes all rims. Nothing to look for where every piece is a sphere.
+bool all_are_spheres(std::span<const Triangle> triangles, std::size_t vertices, const std::vector<Edge>& edges) {
+  DisjointSets joined(vertices);
+  std::vector<std::uint8_t> used(vertices, 0);
+  std::int64_t pieces = 0,
+               euler = static_cast<std::int64_t>(triangles.size()) - static_cast<std::int64_t>(edges.size());
+  for (const Edge& e : edges) {
+    for (const std::uint32_t v : {e.low, e.high}) {
+      euler += !used[v];
+      pieces += !used[v];
+      used[v] = 1;
+    }
+    const std::uint32_t a = joined.find(e.low), b = joined.find(e.high);
+    if (a == b) continue;
+    joined.unite(a, b);
+    --pieces;
+  }
+  euler += std::any_of(edges.begin(), edges.end(), [&](const Edge& e) { return e.right == triangles.size(); });
+  return euler == 2 * pieces;
+}
+
 /// Breadth-first trees, one for each component, with the depth of every vertex.
 struct Forest {
   std::vector<std::uint32_t> parent, depth;
-  std::uint32_t trees = 0, isolated = 0; ///< isolated: trees of one vertex
 };
 
 Forest breadth_first(const std::vector<Edge>& edges, std::size_t vertices) {
@@ -40,14 +60,12 @@ Forest breadth_first(const std::vector<Edge>& edges, std::size_t vertices) {
       visit(e.high, e.low);
     }
   });
-  Forest forest{std::vector<std::uint32_t>(vertices, none), std::vector<std::uint32_t>(vertices, none), 0, 0};
+  Forest forest{std::vector<std::uint32_t>(vertices, none), std::vector<std::uint32_t>(vertices, none)};
   std::vector<std::uint32_t> queue;
   queue.reserve(vertices);
   for (std::uint32_t root = 0; root < vertices; ++root) {
     if (forest.depth[root] != none) continue;
     forest.depth[root] = 0;
-    ++forest.trees;
-    forest.isolated += neighbours[root].empty();
     queue.assign(1, root);
     for (std::size_t i = 0; i < queue.size(); ++i)
       for (const std::uint32_t v : neighbours[queue[i]]) {
@@ -109,14 +127,8 @@ std::vector<std::uint32_t> loop_through(const Forest& forest, const Edge& edge) 
 std::vector<std::vector<std::uint32_t>> handle_loops(std::span<const Triangle> triangles, std::size_t vertices,
                                                      std::uint32_t longest, const Threads& threads) {
   const std::vector<Edge> edges = edges_of(triangles, vertices, threads);
+  if (all_are_spheres(triangles, vertices, edges)) return {};
   const Forest forest = breadth_first(edges, vertices);
-  const bool has_rim =
-      std::any_of(edges.begin(), edges.end(), [&](const Edge& e) { return e.right == triangles.size(); });
-  // Euler's formula for closed surfaces: nothing to look for where every piece is a sphere.
-  const auto isolated = static_cast<std::int64_t>(forest.isolated);
-  const std::int64_t euler = static_cast<std::int64_t>(vertices + triangles.size() + has_rim) - isolated -
-                             static_cast<std::int64_t>(edges.size());
-  if (euler == 2 * (static_cast<std::int64_t>(forest.trees) - isolated)) return {};
   // The cotree takes the edges with the longest loops, so that the shortest are left.
   const std::vector<std::uint32_t> length = loop_lengths(edges, forest, longest, threads);
   DisjointSets cotree(triangles.size() + 1);
@@ -132,49 +144,39 @@ std::vector<std::vector<std::uint32_t>> handle_loops(std::span<const Triangle> t
   return loops;
 }
 
-LoopsNearby::LoopsNearby(std::span<const Triangle> triangles, std::size_t vertices)
-    : triangles_(triangles),
-      of_vertex_(build_rows<std::uint32_t>(vertices,
-                                           [&](auto&& visit) {
-                                             for (std::uint32_t i = 0; i < triangles.size(); ++i)
-                                               for (const std::uint32_t v : triangles[i]) visit(v, i);
-                                           })),
-      number_(vertices, none) {}
+LoopsNearby::LoopsNearby(std::size_t vertices, TrianglesAt triangles_at)
+    : triangles_at_(std::move(triangles_at)), number_(vertices, none) {}
 
-std::uint32_t LoopsNearby::number(std::uint32_t vertex) {
-  if (number_[vertex] == none) {
-    number_[vertex] = static_cast<std::uint32_t>(part_.size());
-    part_.push_back(vertex);
-  }
-  return number_[vertex];
+void LoopsNearby::take(std::uint32_t vertex) {
+  if (number_[vertex] != none) return;
+  number_[vertex] = static_cast<std::uint32_t>(part_.size());
+  part_.push_back(vertex);
 }
 
 std::vector<std::vector<std::uint32_t>> LoopsNearby::at(std::uint32_t root, std::uint32_t radius,
                                                         const Threads& threads) {
   part_.clear();
-  number(root);
-  std::size_t begin = 0;
-  for (std::uint32_t step = 0; step < radius; ++step) {
-    const std::size_t end = part_.size();
-    for (; begin < end; ++begin)
-      for (const std::uint32_t i : of_vertex_[part_[begin]])
-        for (const std::uint32_t v : triangles_[i]) number(v);
+  take(root);
+  std::vector<NamedTriangle> triangles;
+  std::size_t looked_at = 0, looked_through = 0;
+  for (std::uint32_t step = 0; step <= radius; ++step) {
+    for (const std::size_t ring_end = part_.size(); looked_at < ring_end; ++looked_at)
+      triangles_at_(part_[looked_at], triangles);
+    if (step == radius) break; // the last ring takes no more vertices
+    for (; looked_through < triangles.size(); ++looked_through)
+      for (const std::uint32_t v : triangles[looked_through].corners) take(v);
   }
   visited_ += part_.size();
-  std::vector<std::uint32_t> inner;
-  for (const std::uint32_t v : part_)
-    for (const std::uint32_t i : of_vertex_[v]) {
-      const Triangle& corners = triangles_[i];
-      if (std::all_of(corners.begin(), corners.end(), [&](std::uint32_t w) { return number_[w] != none; }))
-        inner.push_back(i);
-    }
-  std::sort(inner.begin(), inner.end());
-  inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
-  std::vector<Triangle> part;
-  for (const std::uint32_t i : inner)
-    part.push_back({number_[triangles_[i][0]], number_[triangles_[i][1]], number_[triangles_[i][2]]});
+  std::sort(triangles.begin(), triangles.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  std::vector<Triangle> inner;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto& [name, corners] = triangles[i];
+    if (i > 0 && triangles[i - 1].name == name) continue;
+    const Triangle in_part{number_[corners[0]], number_[corners[1]], number_[corners[2]]};
+    if (std::find(in_part.begin(), in_part.end(), none) == in_part.end()) inner.push_back(in_part);
+  }
   for (const std::uint32_t v : part_) number_[v] = none;
-  auto loops = handle_loops(part, part_.size(), 2 * radius, threads);
+  auto loops = handle_loops(inner, part_.size(), 2 * radius, threads);
   for (auto& loop : loops)
     for (std::uint32_t& v : loop) v = part_[v];
   return loops;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -24,8 +25,15 @@ std::vector<std::vector<std::uint32_t>> handle_loops(std::span<const Triangle> t
 /// through that vertex are among them, as short as there are any.
 class LoopsNearby {
  public:
-  /// \param triangles as above; outlive this
-  LoopsNearby(std::span<const Triangle> triangles, std::size_t vertices);
+  struct NamedTriangle {
+    std::uint64_t name; ///< of its own
+    Triangle corners;
+  };
+  /// Appends the triangles at a vertex, as they are then.
+  using TrianglesAt = std::function<void(std::uint32_t vertex, std::vector<NamedTriangle>&)>;
+
+  /// \param vertices how many numbers they have
+  LoopsNearby(std::size_t vertices, TrianglesAt triangles_at);
 
   [[nodiscard]] std::vector<std::vector<std::uint32_t>> at(std::uint32_t root, std::uint32_t radius,
                                                            const Threads& threads);
@@ -33,12 +41,11 @@ class LoopsNearby {
   [[nodiscard]] std::size_t visited() const { return visited_; }
 
  private:
-  std::uint32_t number(std::uint32_t vertex);
+  void take(std::uint32_t vertex);
 
-  std::span<const Triangle> triangles_;
-  CompressedRows<std::uint32_t> of_vertex_; ///< triangles
-  std::vector<std::uint32_t> number_;       ///< of each vertex in the part; no_index outside it
-  std::vector<std::uint32_t> part_;         ///< its vertices, the nearest first
+  TrianglesAt triangles_at_;
+  std::vector<std::uint32_t> number_; ///< of each vertex in the part; no_index outside it
+  std::vector<std::uint32_t> part_;   ///< its vertices, the nearest first
   std::size_t visited_ = 0;
 };
 

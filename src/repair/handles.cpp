@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <set>
 
+#include "geometry/tetrahedron.h"
 #include "repair/generators.h"
 #include "repair/handle_loops.h"
+#include "repair/surface_fronts.h"
 #include "tetrahedra/segment_walk.h"
 
 namespace eigencrust {
@@ -28,9 +29,25 @@ class HandleClosing {
   explicit HandleClosing(Moves& moves)
       : moves_(moves), t_(moves.scene.t), stars_(moves.scene.stars), taken_(t_.tetrahedra.size(), 0) {}
 
+  /// The first round looks for loops all over the surface; later ones look again where something was closed.
   std::uint64_t run(const Checkpoint& checkpoint) {
+    std::vector<Loop> places = loops_of_surface();
+    if (places.empty()) return 0;
+    changed_.assign(t_.positions.size(), 0);
     std::uint64_t closed = 0;
-    for (std::uint64_t in_round = 1; in_round > 0; closed += in_round) in_round = close_short_loops(checkpoint);
+    for (std::uint64_t before = 1; closed != before && !places.empty();) {
+      before = closed;
+      LoopsNearby nearby(t_.positions.size(), [&](std::uint32_t s, auto& triangles) { triangles_at(s, triangles); });
+      ++round_;
+      std::vector<Loop> again;
+      for (Loop& loop : places) {
+        if (checkpoint) checkpoint(0);
+        const bool done = close_at(loop, nearby);
+        closed += done;
+        if (done || is_changed(loop, round_)) again.push_back(std::move(loop));
+      }
+      places = std::move(again);
+    }
     return closed;
   }
 
@@ -38,44 +55,47 @@ class HandleClosing {
   using Loop = std::vector<std::uint32_t>;
   using Region = std::vector<TetrahedronIndex>;
 
-  std::uint64_t close_short_loops(const Checkpoint& checkpoint) {
+  std::vector<Loop> loops_of_surface() {
     const Surface surface = extract_surface(t_, moves_.labels().all(), moves_.scene.threads);
-    const auto& triangles = surface.mesh.triangles;
-    const std::size_t vertices = surface.mesh.vertices.size();
-    std::optional<LoopsNearby> nearby; // most surfaces have no handle that asks for it
-    changed_.assign(t_.positions.size(), 0);
-    std::uint64_t closed = 0;
-    for (const auto& far : handle_loops(triangles, vertices, longest_loop, moves_.scene.threads)) {
-      if (checkpoint) checkpoint(0);
-      const Loop loop = samples_of(surface, far);
-      if (failed_.count(loop) > 0) continue;
-      if (close(loop)) {
-        ++closed;
-        continue;
-      }
-      // A loop seen from afar may go through one handle and around another; those from its own vertices go around one.
-      // All parts together are no larger than the surface: what is full of handles is no surface.
-      if (!nearby) nearby.emplace(triangles, vertices);
-      if (nearby->visited() > vertices) continue;
-      const auto radius = static_cast<std::uint32_t>((far.size() + 1) / 2);
-      for (const auto& near : nearby->at(far.front(), radius, moves_.scene.threads))
-        if (close(samples_of(surface, near))) {
-          ++closed;
-          break;
-        }
-    }
-    return closed;
+    surface_size_ = surface.mesh.vertices.size();
+    auto loops = handle_loops(surface.mesh.triangles, surface_size_, longest_loop, moves_.scene.threads);
+    for (Loop& loop : loops)
+      for (std::uint32_t& v : loop) v = surface.sample_of[v].value;
+    return loops;
   }
 
-  static Loop samples_of(const Surface& surface, const std::vector<std::uint32_t>& vertices) {
-    Loop loop;
-    for (const std::uint32_t v : vertices) loop.push_back(surface.sample_of[v].value);
-    return loop;
+  void triangles_at(std::uint32_t s, std::vector<LoopsNearby::NamedTriangle>& triangles) const {
+    for_each_surface_face(t_, stars_, moves_.labels(), VertexIndex{s}, [&](TetrahedronIndex i, std::size_t k) {
+      const auto& v = t_.tetrahedra[i];
+      Triangle corners{};
+      for (std::size_t j = 0; j < 3; ++j) {
+        if (t_.is_corner(v[face_opposite[k][j]])) return;
+        corners[j] = v[face_opposite[k][j]].value;
+      }
+      triangles.push_back({std::uint64_t{4} * i.value + k, corners});
+    });
+  }
+
+  /// The handle that the loop was found at. From afar a loop may go through one handle and around another; those from
+  /// its own vertices go around one.
+  bool close_at(const Loop& loop, LoopsNearby& nearby) {
+    if (!is_changed(loop, 1) && close(loop)) return true;
+    // All parts together are no larger than the surface: what is full of handles is no surface.
+    if (nearby.visited() > surface_size_) return false;
+    const auto root = std::find_if(loop.begin(), loop.end(),
+                                   [&](std::uint32_t s) { return moves_.labels().on_surface(VertexIndex{s}); });
+    if (root == loop.end()) return false;
+    const auto radius = static_cast<std::uint32_t>((loop.size() + 1) / 2);
+    const auto loops = nearby.at(*root, radius, moves_.scene.threads);
+    return std::any_of(loops.begin(), loops.end(), [&](const Loop& near) { return close(near); });
+  }
+
+  /// Has something been closed at one of its samples, in this round or later?
+  [[nodiscard]] bool is_changed(const Loop& loop, std::uint32_t since) const {
+    return std::any_of(loop.begin(), loop.end(), [&](std::uint32_t s) { return changed_[s] >= since; });
   }
 
   bool close(const Loop& loop) {
-    // What was changed nearby may have closed this one; the next round knows.
-    if (std::any_of(loop.begin(), loop.end(), [&](std::uint32_t s) { return changed_[s] != 0; })) return false;
     const double worth = worth_of(loop);
     if (!(worth > 0) || failed_.count(loop) > 0) return false;
     const Moves::Outcome best = best_move(loop, worth);
@@ -84,7 +104,7 @@ class HandleClosing {
       return false;
     }
     moves_.make(best);
-    for (const std::uint32_t s : moves_.samples_of(best.turned)) changed_[s] = 1;
+    for (const std::uint32_t s : moves_.samples_of(best.turned)) changed_[s] = round_;
     return true;
   }
 
@@ -152,9 +172,11 @@ class HandleClosing {
   Moves& moves_;
   const Tetrahedralization& t_;
   const VertexStars& stars_;
-  std::set<Loop> failed_;             ///< loops that nothing closed
-  std::vector<std::uint8_t> changed_; ///< samples in this round
-  std::vector<std::uint8_t> taken_;   ///< tetrahedra, while a region is gathered
+  std::set<Loop> failed_;        ///< loops that nothing closed
+  std::size_t surface_size_ = 0; ///< vertices
+  std::uint32_t round_ = 0;
+  std::vector<std::uint32_t> changed_; ///< of each sample: the last round in which something was closed there
+  std::vector<std::uint8_t> taken_;    ///< tetrahedra, while a region is gathered
 };
 
 } // namespace

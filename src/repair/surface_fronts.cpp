@@ -39,25 +39,19 @@ void SurfaceFronts::grow(std::uint32_t front) {
   std::vector<std::uint32_t> ring, next;
   std::swap(ring, rim_[front]);
   for (const std::uint32_t s : ring)
-    for (const TetrahedronIndex i : stars_[VertexIndex{s}]) {
-      if (labels_[i] != Label::inside) continue;
-      const auto& v = t_.tetrahedra[i];
-      for (std::size_t k = 0; k < 4; ++k) {
-        const TetrahedronIndex n = t_.neighbours[i][k];
-        if (v[k].value == s || (n.valid() && labels_[n] == Label::inside)) continue;
-        for (std::size_t j = 0; j < 4; ++j) { // the other two of a triangle of the surface
-          const std::uint32_t other = v[j].value;
-          if (j == k || other == s) continue;
-          if (owner_[other] != none) {
-            front = join(front, root_of(owner_[other]));
-            continue;
-          }
-          owner_[other] = front;
-          reached_.push_back(other);
-          next.push_back(other);
+    for_each_surface_face(t_, stars_, labels_, VertexIndex{s}, [&](TetrahedronIndex i, std::size_t k) {
+      for (std::size_t j = 0; j < 4; ++j) { // the other two of a triangle of the surface
+        const std::uint32_t other = t_.tetrahedra[i][j].value;
+        if (j == k || other == s) continue;
+        if (owner_[other] != none) {
+          front = join(front, root_of(owner_[other]));
+          continue;
         }
+        owner_[other] = front;
+        reached_.push_back(other);
+        next.push_back(other);
       }
-    }
+    });
   rim_[front].insert(rim_[front].end(), next.begin(), next.end());
 }
 

@@ -10,6 +10,19 @@
 
 namespace eigencrust {
 
+/// The faces of the surface at a vertex: visit(tetrahedron inside, the place of its corner across).
+template <class Visit>
+void for_each_surface_face(const Tetrahedralization& t, const VertexStars& stars, const PricedLabels& labels,
+                           VertexIndex at, Visit&& visit) {
+  for (const TetrahedronIndex i : stars[at]) {
+    if (labels[i] != Label::inside) continue;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const TetrahedronIndex n = t.neighbours[i][k];
+      if (t.tetrahedra[i][k] != at && !(n.valid() && labels[n] == Label::inside)) visit(i, k);
+    }
+  }
+}
+
 /// All fronts grow in turn, ring by ring, and are one where they meet: that takes as long as it takes the smaller
 /// pieces to end, or neighbours to meet.
 class SurfaceFronts {

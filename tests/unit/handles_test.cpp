@@ -85,7 +85,10 @@ TEST(HandleLoops, OfTwoToriFourShortestFirst) {
 
 TEST(LoopsNearby, AreAsShortAsThereAreAnyThroughTheRoot) {
   const auto triangles = torus_mesh(6, 9);
-  LoopsNearby nearby(triangles, 54);
+  LoopsNearby nearby(54, [&](std::uint32_t v, std::vector<LoopsNearby::NamedTriangle>& at) {
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+      if (std::find(triangles[i].begin(), triangles[i].end(), v) != triangles[i].end()) at.push_back({i, triangles[i]});
+  });
   for (std::uint32_t root = 0; root < 54; ++root) {
     const std::vector<Loop> all = nearby.at(root, 9, Threads(2));
     expect_loops_along_edges(all, triangles);
