@@ -182,23 +182,11 @@ SurfaceLength surface_length(Dice& dice) {
   }
 }
 
-/// As above, but long enough that there are not hundreds of triangles for each sample.
-SurfaceLength edge_length(Dice& dice) {
-  using Kind = SurfaceLength::Kind;
-  switch (dice.below(3)) {
-    case 0:
-      return {Kind::length, std::pow(10.0, dice.between(-1, 0))};
-    case 1:
-      return {Kind::percent, dice.between(2, 30)};
-    default:
-      return {Kind::sigma, dice.between(1, 10)};
-  }
-}
-
 void choose_triangles(Dice& dice, Options& o) {
   if (!o.manifold || !dice.one_in(3)) return;
   if (dice.one_in(3)) {
-    o.edge = edge_length(dice);
+    // Whatever the cloud's size, not hundreds of triangles for each sample.
+    o.edge = {SurfaceLength::Kind::percent, dice.between(3, 30)};
     return;
   }
   const bool by_error = dice.one_in(2);
