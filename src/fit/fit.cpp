@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/fit.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -122,17 +121,41 @@ std::vector<float> noise_at_vertices(const Surface& surface, const SurfaceFans& 
   return noise;
 }
 
+/// Symmetric.
+struct Matrix3 {
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  void add(double w, const Vec3& n) {
+    xx += w * n.x * n.x;
+    xy += w * n.x * n.y;
+    xz += w * n.x * n.z;
+    yy += w * n.y * n.y;
+    yz += w * n.y * n.z;
+    zz += w * n.z * n.z;
+  }
+  friend Vec3 operator*(const Matrix3& m, const Vec3& p) {
+    return {m.xx * p.x + m.xy * p.y + m.xz * p.z, m.xy * p.x + m.yy * p.y + m.yz * p.z,
+            m.xz * p.x + m.yz * p.y + m.zz * p.z};
+  }
+};
+
 /// From the mean of the ways to some planes the way to where they intersect, by least squares: to the edge between two.
-/// \param normals mean of n nᵀ
-Vec3 towards_all(const Vec3& mean, const Eigen::Matrix3d& normals) {
-  // A direction that few of the planes lie across is stretched no more than that.
-  constexpr double least_share = 0.5;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(normals); // in closed form: the last digits do not matter
-  const Eigen::Vector3d way = solver.eigenvectors().transpose() * Eigen::Vector3d(mean.x, mean.y, mean.z);
-  const Eigen::Vector3d all =
-      solver.eigenvectors() * way.cwiseQuotient(solver.eigenvalues().cwiseMax(least_share)).eval();
-  return {all[0], all[1], all[2]};
+/// A direction that few of the planes lie across is stretched to twice its length at most; of three eigenvalues that
+/// add up to 1 the second is 1/2 at most, so that only the direction of the first is stretched less. Where the two are
+/// about the same that makes no difference, and else few steps of the power method find it.
+/// \param normals sum of w n nᵀ \param total sum of w \param normal a start
+Vec3 towards_all(const Vec3& mean, const Matrix3& normals, double total, const Vec3& normal) {
+  constexpr int steps = 6;
+  constexpr double most_stretched = 2;
+  Vec3 first = normal;
+  double largest = 0;
+  for (int step = 0; step < steps; ++step) {
+    first = (1 / total) * (normals * first);
+    largest = norm(first);
+    if (!(largest > 0)) return mean;
+    first = (1 / largest) * first;
+  }
+  return most_stretched * mean -
+         (most_stretched - 1 / std::max(largest, 1 / most_stretched)) * dot(first, mean) * first;
 }
 
 /// The middle of the noise, from fits at places spread over the surface.
@@ -260,7 +283,7 @@ class SurfaceFit {
           const std::uint32_t own = place_of[v];
           double total = 0, squares = 0, noise = 0, error = 0;
           Vec3 way, normal;
-          Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
+          Matrix3 normals;
           const double unit = std::max(noise_at(v), least_unit_in_spacings * spacing_at(v));
           const double radius = blend_reach * chosen_.width[own] * unit;
           const auto take = [&](std::uint32_t p) {
@@ -274,8 +297,7 @@ class SurfaceFit {
             // Along the normal of the fit: along another one what lies beside an edge would slide beyond it.
             const auto [ahead, across] = fit.foot(position_[v]);
             way = way + w * ahead * across;
-            const Eigen::Vector3d n(across.x, across.y, across.z);
-            normals += w * n * n.transpose();
+            normals.add(w, across);
             squares += w * ahead * ahead;
             noise += w * fit.noise_variance;
             error += w * fit.noise_variance * fit.variance;
@@ -291,7 +313,8 @@ class SurfaceFit {
           }
           if (!(total > 0)) return;
           const Vec3 mean = (1 / total) * way;
-          position_[v] = position_[v] + towards_all(mean, normals / total);
+          if (const double length = norm(normal); length > 0) normal_[v] = (1 / length) * normal;
+          position_[v] = position_[v] + towards_all(mean, normals, total, normal_[v]);
           // How far the fits differ shows how far off they are where the shape is finer or sharper than them.
           const double apart = squares / total - squared_norm(mean);
           const double usual_here = usual_[clusters.ancestor(FitPlaces::level, own, coarse(clusters))],
@@ -299,7 +322,6 @@ class SurfaceFit {
           const double variance = std::min(noise / total, usual_here * usual_here) - curvature * curvature;
           sigma_[v] = std::sqrt(std::max(0.0, variance));
           trust_[v] = variance > 0 ? variance / (variance + std::max(0.0, apart - error / total)) : 0;
-          if (const double length = norm(normal); length > 0) normal_[v] = (1 / length) * normal;
         },
         costly_block);
   }
