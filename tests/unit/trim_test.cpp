@@ -20,10 +20,11 @@ struct Hull {
   Threads threads{2};
   Prepared p;
   SampleModel model;
+  Labels labels;
   Surface surface;
 
   explicit Hull(const Points& points) : p(clouds::prepare(points)) {
-    Labels labels(p.t.tetrahedra.size(), Label::outside);
+    labels = Labels(p.t.tetrahedra.size(), Label::outside);
     for (TetrahedronIndex i{0}; i.value < labels.size(); ++i.value)
       if (!p.t.touches_cube(i)) labels[i] = Label::inside;
     model = sample_model(std::span(p.t.positions.raw()).first(p.t.sample_count), std::nullopt, threads);
@@ -182,7 +183,7 @@ TEST(Trim, OnlyRimsOfThreeEdgesAreClosed) {
   gone[100] = gone[next] = 1;
   const TetrahedronIndex behind = hull.surface.inside[7];
   trim(gone, hull.surface);
-  close_smallest_rims(hull.p.t, hull.p.stars, hull.surface);
+  close_smallest_rims(hull.p.t, hull.p.stars, hull.labels, hull.surface);
   const MeshSummary m = validate(hull.surface.mesh);
   EXPECT_EQ(m.triangles, whole.triangles.size() - 2);
   EXPECT_EQ(m.boundary_loops, 1u);
@@ -197,8 +198,19 @@ TEST(Trim, TheRimThatAPieceEndsAtStays) {
   std::vector<std::uint8_t> gone(hull.surface.mesh.triangles.size(), 1);
   gone[7] = 0;
   trim(gone, hull.surface);
-  close_smallest_rims(hull.p.t, hull.p.stars, hull.surface);
+  close_smallest_rims(hull.p.t, hull.p.stars, hull.labels, hull.surface);
   EXPECT_EQ(hull.surface.mesh.triangles.size(), 1u);
+}
+
+TEST(Trim, ARimAroundAFaceThatDividesNothingIsLeft) {
+  Hull hull(clouds::sphere(200));
+  std::vector<std::uint8_t> gone(hull.surface.mesh.triangles.size(), 0);
+  gone[7] = gone[100] = 1;
+  hull.labels[hull.surface.inside[7]] = Label::outside;
+  const std::size_t rest = gone.size() - 2;
+  trim(gone, hull.surface);
+  close_smallest_rims(hull.p.t, hull.p.stars, hull.labels, hull.surface);
+  EXPECT_EQ(hull.surface.mesh.triangles.size(), rest + 1); // only the other one
 }
 
 TEST(Trim, RimsThatEndAtAnEdgeOfThreeTrianglesAreLeft) {
@@ -213,7 +225,7 @@ TEST(Trim, RimsThatEndAtAnEdgeOfThreeTrianglesAreLeft) {
     hull.surface.support.push_back(1);
   }
   ASSERT_EQ(validate(hull.surface.mesh).nonmanifold_edges, 2u);
-  close_smallest_rims(hull.p.t, hull.p.stars, hull.surface);
+  close_smallest_rims(hull.p.t, hull.p.stars, hull.labels, hull.surface);
   EXPECT_EQ(triangles.size(), whole + 2);
 }
 
