@@ -110,18 +110,79 @@ class Remeshing {
       const Vec3 p = full_.vertices[v] - centre_;
       number[mesh.add_vertex(Point(p.x, p.y, p.z))] = v;
     }
-    std::vector<Mesh::Face_index> free;
+    const auto kept = mesh.add_property_map<Mesh::Face_index, bool>("f:kept", false).first;
     for (std::size_t t = 0; t < full_.triangles.size(); ++t) {
       const auto& [a, b, c] = full_.triangles[t];
       const auto face = mesh.add_face(Mesh::Vertex_index(a), Mesh::Vertex_index(b), Mesh::Vertex_index(c));
       if (face == Mesh::null_face()) return std::nullopt;
-      if (!kept_[t]) free.push_back(face);
+      kept[face] = kept_[t] != 0;
     }
     const auto creases = mesh.add_property_map<Mesh::Edge_index, bool>("e:crease", false).first;
     for (const Mesh::Edge_index e : mesh.edges()) creases[e] = is_crease(mesh, e);
-    pmp::isotropic_remeshing(free, edge_, mesh,
-                             pmp::parameters::number_of_iterations(iterations).edge_is_constrained_map(creases));
+    for (unsigned i = 0; i < iterations; ++i) {
+      std::vector<Mesh::Face_index> free;
+      for (const Mesh::Face_index f : mesh.faces())
+        if (!kept[f]) free.push_back(f);
+      // CGAL 5.5 moves vertices itself, but reads past the end where all triangles around one have no area.
+      pmp::isotropic_remeshing(free, edge_, mesh,
+                               pmp::parameters::number_of_iterations(1)
+                                   .number_of_relaxation_steps(0)
+                                   .do_project(false)
+                                   .edge_is_constrained_map(creases));
+      move_along_surface(mesh, kept, creases);
+    }
     return placed(mesh, number);
+  }
+
+  /// Each vertex, but those at rims, creases and what is kept, to the middle of its neighbours, along its tangent plane
+  /// and then to the surface, where that turns none of its triangles over.
+  template <class Kept, class Creases>
+  void move_along_surface(Mesh& mesh, const Kept& kept, const Creases& creases) const {
+    std::vector<Mesh::Vertex_index> movable;
+    for (const Mesh::Vertex_index v : mesh.vertices()) {
+      bool may_move = !mesh.is_isolated(v);
+      if (may_move)
+        for (const Mesh::Halfedge_index h : mesh.halfedges_around_target(mesh.halfedge(v)))
+          may_move = may_move && !mesh.is_border(mesh.edge(h)) && !creases[mesh.edge(h)] && !kept[mesh.face(h)];
+      if (may_move) movable.push_back(v);
+    }
+    std::vector<Vec3> places(movable.size());
+    for_each_index(
+        threads_, movable.size(), [&](std::size_t i) { places[i] = better_place(mesh, movable[i]); }, costly_block);
+    for (std::size_t i = 0; i < movable.size(); ++i) {
+      const Point before = mesh.point(movable[i]), after(places[i].x, places[i].y, places[i].z);
+      const std::vector<Vec3> areas = areas_around(mesh, movable[i]);
+      mesh.point(movable[i]) = after;
+      const std::vector<Vec3> moved = areas_around(mesh, movable[i]);
+      for (std::size_t k = 0; k < areas.size(); ++k)
+        if (!(dot(areas[k], moved[k]) > 0) && squared_norm(areas[k]) > 0) mesh.point(movable[i]) = before;
+    }
+  }
+
+  static Vec3 place(const Mesh& mesh, Mesh::Vertex_index v) {
+    const Point& p = mesh.point(v);
+    return {p.x(), p.y(), p.z()};
+  }
+  static std::vector<Vec3> areas_around(const Mesh& mesh, Mesh::Vertex_index v) {
+    std::vector<Vec3> areas;
+    for (const Mesh::Halfedge_index h : mesh.halfedges_around_target(mesh.halfedge(v))) {
+      const Vec3 from = place(mesh, mesh.source(h));
+      areas.push_back(cross(place(mesh, v) - from, place(mesh, mesh.target(mesh.next(h))) - from));
+    }
+    return areas;
+  }
+  [[nodiscard]] Vec3 better_place(const Mesh& mesh, Mesh::Vertex_index v) const {
+    const Vec3 here = place(mesh, v);
+    Vec3 sum, normal;
+    double count = 0;
+    for (const Mesh::Halfedge_index h : mesh.halfedges_around_target(mesh.halfedge(v))) {
+      sum = sum + (place(mesh, mesh.source(h)) - here);
+      count += 1;
+    }
+    for (const Vec3& area : areas_around(mesh, v)) normal = normal + area;
+    Vec3 way = (1 / count) * sum;
+    if (const double square = squared_norm(normal); square > 0) way = way - (dot(way, normal) / square) * normal;
+    return surface_.tree().nearest(here + way + centre_).point - centre_;
   }
 
   [[nodiscard]] bool is_crease(const Mesh& mesh, Mesh::Edge_index e) const {

@@ -161,6 +161,26 @@ TEST(Remesh, OfFineCoarseAndOpenMeshes) {
     }
 }
 
+TEST(Remesh, OfTrianglesWithHardlyAnArea) {
+  // Nine points in a plane but for rounding, and one so far away that all coordinates are small beside it: around some
+  // vertices no triangle's area can be told from nothing.
+  PointCloud cloud;
+  cloud.points = {{0.83212228190244986, 0.44673495293794285, -9.861690277720096e-15},
+                  {0.19593186467208801, 0.025316359423554813, -4.4334882756055889e-16},
+                  {0.97420414184642934, 0.33924390222479495, 1.6315749725682338e-15},
+                  {0.016960901758620306, 0.20866048287213457, -6.5541669856762797e-15},
+                  {0.87129889247080206, 0.5641241415855861, -5.1376483231990302e-15},
+                  {0.68367530987336389, 0.015965197109763518, -2.0724941015072828e-14},
+                  {0.48330849863659875, 0.086224109963981999, -3.6910881269971159e-15},
+                  {0.23718262674097268, 0.96764049756029435, -2.2180860875671668e-15},
+                  {0.92530773240259434, 0.47741294858479721, 7.3107069602113435e-15},
+                  {2.2741094687751626e+28, -5.9044004039336447e+28, -3.4578995759911034e+28}};
+  Options options;
+  options.edge = {SurfaceLength::Kind::percent, 8.336769};
+  const Result result = reconstruct(cloud, options);
+  EXPECT_TRUE(result.report.broken_guarantees.empty());
+}
+
 TEST(Remesh, RefusesEdgesThatMakeFarTooManyTriangles) {
   const TriangleMesh mesh = shapes::icosphere(2);
   EXPECT_THROW(remesh(mesh, FullSurface(mesh, Threads(1)), 1e-6, spacing, Threads(1)), Error);
