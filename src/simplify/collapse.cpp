@@ -53,7 +53,7 @@ class Collapsing {
         is_manifold_ = false;
         return;
       }
-    stamp_.assign(mesh_.num_edges(), 0);
+    state_.assign(mesh_.num_edges(), State::left_out);
     at_rim_.assign(mesh_.num_vertices(), 0);
     for (const EdgeId e : mesh_.edges())
       if (mesh_.is_border(e)) at_rim_[mesh_.vertex(e, 0)] = at_rim_[mesh_.vertex(e, 1)] = 1;
@@ -89,9 +89,11 @@ class Collapsing {
   };
   struct Candidate {
     double cost;
-    std::uint32_t edge, stamp;
+    std::uint32_t edge;
     bool operator<(const Candidate& o) const { return cost > o.cost || (cost == o.cost && edge > o.edge); }
   };
+  /// Of edges: not in the queue, there with its cost, there with that of before.
+  enum class State : std::uint8_t { left_out, waits, changed };
   struct Collapse {
     Vec3 place;
     double cost, distance; ///< root of the mean square to the planes
@@ -107,12 +109,13 @@ class Collapsing {
 
   /// \return whether it is at the end of the queue now
   bool add(EdgeId e, const CollapseGoal& goal) {
-    const std::uint32_t stamp = ++stamp_[e];
+    state_[e] = State::left_out;
     const double limit = static_cast<double>(std::min(limit_[mesh_.vertex(e, 0)], limit_[mesh_.vertex(e, 1)]));
     if (limit < 0) return false;
     const Collapse collapse = evaluate(e);
     if (!(collapse.distance <= std::min(goal.max_error, limit))) return false;
-    queue_.push_back({collapse.cost, static_cast<std::uint32_t>(e), stamp});
+    queue_.push_back({collapse.cost, static_cast<std::uint32_t>(e)});
+    state_[e] = State::waits;
     return true;
   }
 
@@ -133,7 +136,11 @@ class Collapsing {
       const Candidate next = queue_.back();
       queue_.pop_back();
       const EdgeId e(next.edge);
-      if (mesh_.is_removed(e) || stamp_[e] != next.stamp) continue;
+      if (mesh_.is_removed(e)) continue;
+      if (std::exchange(state_[e], State::left_out) == State::changed) {
+        if (add(e, goal)) std::push_heap(queue_.begin(), queue_.end());
+        continue;
+      }
       const std::size_t fewer = mesh_.is_border(e) ? 1 : 2;
       if (mesh_.number_of_faces() < goal.triangles + fewer) return;
       const Vec3 to = evaluate(e).place;
@@ -154,8 +161,12 @@ class Collapsing {
     quadric_[kept] = sum;
     limit_[kept] = std::min(limit_[u], limit_[v]);
     at_rim_[kept] = at_rim_[u] | at_rim_[v];
+    // Quadrics add up, so that edges around hardly ever become cheaper: it is soon enough to ask again at their turn.
     for (const HalfedgeId h : CGAL::halfedges_around_target(mesh_.halfedge(kept), mesh_))
-      if (add(mesh_.edge(h), goal)) std::push_heap(queue_.begin(), queue_.end());
+      if (const EdgeId around = mesh_.edge(h); state_[around] != State::left_out)
+        state_[around] = State::changed;
+      else if (add(around, goal))
+        std::push_heap(queue_.begin(), queue_.end());
   }
 
   /// Does no triangle that is left turn over or become too thin?
@@ -258,7 +269,7 @@ class Collapsing {
   std::vector<float> limit_;                            ///< of each vertex
   std::vector<std::uint32_t> into_;                     ///< of each vertex
   std::vector<std::uint8_t> at_rim_;                    ///< of each vertex
-  std::vector<std::uint32_t> stamp_;                    ///< of each edge: candidates of earlier ones are out of date
+  std::vector<State> state_;                            ///< of each edge
   std::vector<std::uint32_t> first_point_, next_point_; ///< of each triangle; after each point of the same triangle
   // Of the collapse that is looked at:
   std::vector<StarTriangle> star_;                               ///< triangles that there will be
