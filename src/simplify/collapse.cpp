@@ -142,7 +142,7 @@ class Collapsing {
         continue;
       }
       const std::size_t fewer = mesh_.is_border(e) ? 1 : 2;
-      if (mesh_.number_of_faces() < goal.triangles + fewer) return;
+      if (mesh_.number_of_faces() < goal.triangles + fewer) continue; // one at a rim may do for the last
       const Vec3 to = evaluate(e).place;
       if (!CGAL::Euler::does_satisfy_link_condition(e, mesh_) || !keeps_sides(e, to)) continue;
       if (limits_error() && !keeps_near(e, to)) continue;
