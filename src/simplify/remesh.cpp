@@ -78,7 +78,7 @@ class Remeshing {
     OtherTriangles result{full_, {}, 0, 0};
     for (int round = 0; round <= rounds; ++round) {
       std::optional<TriangleMesh> mesh;
-      if (round < rounds) mesh = remeshed();
+      if (round < rounds) mesh = remeshed_if_possible();
       if (!mesh) break; // as it was
       CrossingVertices crossing = crossing_vertices(*mesh, threads_);
       if (crossing.count == 0) crossing.at = sides_.turned(*mesh, vertices_before(*mesh), threads_);
@@ -101,6 +101,15 @@ class Remeshing {
   }
 
  private:
+  /// CGAL 5.5 asserts, where assertions are on, that creases between its patches close, and they need not.
+  [[nodiscard]] std::optional<TriangleMesh> remeshed_if_possible() const {
+    try {
+      return remeshed();
+    } catch (const CGAL::Assertion_exception&) {
+      return std::nullopt;
+    }
+  }
+
   /// None: the mesh is no manifold.
   [[nodiscard]] std::optional<TriangleMesh> remeshed() const {
     namespace pmp = CGAL::Polygon_mesh_processing;
@@ -118,8 +127,9 @@ class Remeshing {
       kept[face] = kept_[t] != 0;
     }
     const auto creases = mesh.add_property_map<Mesh::Edge_index, bool>("e:crease", false).first;
-    for (const Mesh::Edge_index e : mesh.edges()) creases[e] = is_crease(mesh, e);
     for (unsigned i = 0; i < iterations; ++i) {
+      // CGAL forgets creases that it collapses.
+      for (const Mesh::Edge_index e : mesh.edges()) creases[e] = is_crease(mesh, e);
       std::vector<Mesh::Face_index> free;
       for (const Mesh::Face_index f : mesh.faces())
         if (!kept[f]) free.push_back(f);
@@ -163,12 +173,14 @@ class Remeshing {
     const Point& p = mesh.point(v);
     return {p.x(), p.y(), p.z()};
   }
+  /// Twice the area of the triangle at the halfedge, along its normal.
+  static Vec3 area(const Mesh& mesh, Mesh::Halfedge_index h) {
+    const Vec3 from = place(mesh, mesh.source(h));
+    return cross(place(mesh, mesh.target(h)) - from, place(mesh, mesh.target(mesh.next(h))) - from);
+  }
   static std::vector<Vec3> areas_around(const Mesh& mesh, Mesh::Vertex_index v) {
     std::vector<Vec3> areas;
-    for (const Mesh::Halfedge_index h : mesh.halfedges_around_target(mesh.halfedge(v))) {
-      const Vec3 from = place(mesh, mesh.source(h));
-      areas.push_back(cross(place(mesh, v) - from, place(mesh, mesh.target(mesh.next(h))) - from));
-    }
+    for (const Mesh::Halfedge_index h : mesh.halfedges_around_target(mesh.halfedge(v))) areas.push_back(area(mesh, h));
     return areas;
   }
   [[nodiscard]] Vec3 better_place(const Mesh& mesh, Mesh::Vertex_index v) const {
@@ -185,10 +197,9 @@ class Remeshing {
     return surface_.tree().nearest(here + way + centre_).point - centre_;
   }
 
-  [[nodiscard]] bool is_crease(const Mesh& mesh, Mesh::Edge_index e) const {
+  static bool is_crease(const Mesh& mesh, Mesh::Edge_index e) {
     if (mesh.is_border(e)) return false; // stays anyway
-    const auto h = mesh.halfedge(e, 0), g = mesh.halfedge(e, 1);
-    const Vec3 m = area_vector(full_, mesh.face(h)), n = area_vector(full_, mesh.face(g));
+    const Vec3 m = area(mesh, mesh.halfedge(e, 0)), n = area(mesh, mesh.halfedge(e, 1));
     return dot(m, n) < std::cos(crease * std::numbers::pi / 180) * norm(m) * norm(n);
   }
 
