@@ -39,7 +39,9 @@ typedef struct eigencrust_error {
   char remedy[384]; /**< what the caller can do about it */
 } eigencrust_error;
 
+/** Options by name, made by eigencrust_options_new. */
 typedef struct eigencrust_options eigencrust_options;
+/** A mesh and what there is to know of it, made by eigencrust_reconstruct. */
 typedef struct eigencrust_result eigencrust_result;
 
 /** "MAJOR.MINOR.PATCH" */
@@ -56,8 +58,9 @@ EIGENCRUST_C_API eigencrust_status eigencrust_options_set(eigencrust_options* op
 
 /** How many options there are. */
 EIGENCRUST_C_API size_t eigencrust_option_count(void);
-/** Name and help of an option, 0 <= index < count; else NULL. */
+/** Name of an option, 0 <= index < count; else NULL. */
 EIGENCRUST_C_API const char* eigencrust_option_name(size_t index);
+/** Its help; NULL as above. */
 EIGENCRUST_C_API const char* eigencrust_option_help(size_t index);
 
 /** Called by the thread that called eigencrust_reconstruct, and by it alone. \param fraction of the stage, in [0, 1]
@@ -85,7 +88,9 @@ EIGENCRUST_C_API eigencrust_status eigencrust_reconstruct(const eigencrust_cloud
 EIGENCRUST_C_API void eigencrust_result_free(eigencrust_result* result);
 
 /* What follows belongs to the result and lives as long as it does. */
+/** Number of vertices. */
 EIGENCRUST_C_API size_t eigencrust_result_vertex_count(const eigencrust_result* result);
+/** Number of triangles. */
 EIGENCRUST_C_API size_t eigencrust_result_triangle_count(const eigencrust_result* result);
 /** x, y, z of each vertex. */
 EIGENCRUST_C_API const double* eigencrust_result_vertices(const eigencrust_result* result);
@@ -93,13 +98,15 @@ EIGENCRUST_C_API const double* eigencrust_result_vertices(const eigencrust_resul
 EIGENCRUST_C_API const uint32_t* eigencrust_result_triangles(const eigencrust_result* result);
 /** The row that each vertex came from. */
 EIGENCRUST_C_API const uint32_t* eigencrust_result_source_index(const eigencrust_result* result);
-/** With the option "point-results" one entry per row, else NULL: 1 for samples of the surface; how sure that is,
- *  in [0, 1]; and unit normals x, y, z that look outward, NaN for outliers. */
+/** With the option "point-results" one entry per row, else NULL: 1 for samples of the surface. */
 EIGENCRUST_C_API const uint8_t* eigencrust_result_inlier(const eigencrust_result* result);
+/** The same: how sure that is, in [0, 1]. */
 EIGENCRUST_C_API const float* eigencrust_result_confidence(const eigencrust_result* result);
+/** The same: unit normals x, y, z that look outward, NaN for outliers. */
 EIGENCRUST_C_API const double* eigencrust_result_normals(const eigencrust_result* result);
-/** How many warnings there are, and each of them; NULL beyond the last. */
+/** How many warnings there are. */
 EIGENCRUST_C_API size_t eigencrust_result_warning_count(const eigencrust_result* result);
+/** One of them, 0 <= index < count; else NULL. */
 EIGENCRUST_C_API const char* eigencrust_result_warning(const eigencrust_result* result, size_t index);
 /** The report as JSON, see docs/report.md. */
 EIGENCRUST_C_API const char* eigencrust_result_report(const eigencrust_result* result);

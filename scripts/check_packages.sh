@@ -6,7 +6,9 @@
 #      docs/python.md names.
 # deb: scripts/package.sh; the package is unpacked elsewhere, and command, Python module and a program in C are run
 #      from there; lintian finds no error, if it is installed.
-# Usage: scripts/check_packages.sh [pip|deb]; both without
+# bare: that package is installed with apt in a bare Debian (debootstrap; needs root and a network), and used there.
+# same: a copy of the last commit in another folder, built without a compiler cache, gives the same bytes.
+# Usage: scripts/check_packages.sh [pip|deb|bare|same]; all without
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/packages.sh"
 
@@ -69,9 +71,57 @@ check_deb() {
   fi
 }
 
-case ${1:-both} in
+# The package of build-package; made if it is not there.
+the_package() {
+  [ -f "$(echo "$repository"/build-package/eigencrust_*.deb)" ] || "$repository/scripts/package.sh" >&2
+  echo "$repository"/build-package/eigencrust_*.deb
+}
+
+check_bare() {
+  [ "$(id -u)" -eq 0 ] || fail "a bare Debian is made by root only"
+  install_packages debootstrap
+  local package suite mirror tree=$work/bare
+  package=$(the_package)
+  # shellcheck source=/dev/null
+  suite=$(. /etc/os-release && echo "$VERSION_CODENAME")
+  mirror=$(apt-get indextargets --format '$(SITE) $(RELEASE)' 'Created-By: Packages' | awk -v s="$suite" '$2 == s { print $1; exit }')
+  debootstrap --variant=minbase "$suite" "$tree" "${mirror:-http://deb.debian.org/debian}" >"$work/debootstrap.log" ||
+    { tail -5 "$work/debootstrap.log"; fail "debootstrap failed"; }
+  cp "$package" "$tree/tmp/eigencrust.deb"
+  chroot "$tree" apt-get update -qq
+  chroot "$tree" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends /tmp/eigencrust.deb \
+    >"$work/install.log" 2>&1 || { tail -20 "$work/install.log"; fail "the package cannot be installed"; }
+  # Nobody in particular uses it, in a folder of his own.
+  chroot "$tree" su -s /bin/bash nobody -c 'set -e; cd "$(mktemp -d)"; eigencrust --version; eigencrust demo
+    python3 -c "import eigencrust; r = eigencrust.reconstruct(eigencrust.read_point_cloud(\"/usr/share/eigencrust/examples/teapot_scan.ply\"));
+print(eigencrust.check(r))"'
+  [ -f "$tree/usr/share/bash-completion/completions/eigencrust" ] || fail "the completion is missing"
+  if dpkg-deb --contents "$package" | grep -q viewer.html; then
+    chroot "$tree" su -s /bin/bash nobody -c 'cd "$(mktemp -d)" && eigencrust --quiet \
+      /usr/share/eigencrust/examples/teapot_scan.ply -o t.ply --report page.html && ls -l page.html'
+  else
+    printf 'the package is without the viewer: no page was made\n'
+  fi
+  printf 'bare: installed with %s other packages, and used\n' "$(grep -c '^Setting up' "$work/install.log")"
+}
+
+check_same() {
+  local package copy="$work/a copy in a folder of another length"
+  "$repository/scripts/package.sh"
+  package=$(the_package)
+  git clone --quiet --no-hardlinks "$repository" "$copy"
+  [ -z "$(git -C "$repository" status --porcelain)" ] || fail "commit first: the copy is of the last commit"
+  CCACHE_DISABLE=1 "$copy/scripts/package.sh"
+  cmp "$package" "$copy"/build-package/eigencrust_*.deb
+  sha256sum "$package"
+  printf 'same: two folders, the same bytes\n'
+}
+
+case ${1:-all} in
   pip) (check_pip) ;;
   deb) (check_deb) ;;
-  both) (check_pip) && (check_deb) ;;
-  *) fail "usage: check_packages.sh [pip|deb]" ;;
+  bare) (check_bare) ;;
+  same) (check_same) ;;
+  all) (check_pip) && (check_deb) && (check_bare) && (check_same) ;;
+  *) fail "usage: check_packages.sh [pip|deb|bare|same]" ;;
 esac

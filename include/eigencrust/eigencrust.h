@@ -16,13 +16,14 @@ namespace eigencrust {
 /// MAJOR.MINOR.PATCH; typed once, in CMakeLists.txt.
 const char* version();
 
+/// What a reconstruction gives.
 struct Result {
   /// Vertices are input points bit for bit (unless moved, Options::surface and smooth), with all their attributes and
   /// `source_index`, the row in the input.
   TriangleMesh mesh;
-  Report report;
-  Tetrahedralization tetrahedralization;
-  Labels labels; ///< of every tetrahedron, as the surface was taken from them
+  Report report;                         ///< what was done and found
+  Tetrahedralization tetrahedralization; ///< the Delaunay tetrahedra; empty where a Session has them
+  Labels labels;                         ///< of every tetrahedron, as the surface was taken from them
   // With options.point_results one entry per input row (duplicates have that of their first row), else empty:
   std::vector<std::uint8_t> inlier; ///< 1: the row is a sample of the surface; 0 for rows that are not finite
   std::vector<float> confidence;    ///< in [0, 1], at least 0.5 for inliers; 0 for rows that are not finite

@@ -31,9 +31,13 @@ class Error : public std::runtime_error {
         cause_(std::move(cause)),
         remedy_(std::move(remedy)) {}
 
+  /// Which sort of error.
   [[nodiscard]] ErrorKind kind() const { return kind_; }
+  /// The stage, option or file where it happened.
   [[nodiscard]] const std::string& place() const { return place_; }
+  /// What is wrong.
   [[nodiscard]] const std::string& cause() const { return cause_; }
+  /// What the caller can do about it.
   [[nodiscard]] const std::string& remedy() const { return remedy_; }
 
  private:

@@ -25,11 +25,12 @@ enum class PcdViewpoint : std::uint8_t {
   none       ///< nothing
 };
 
+/// How a point cloud is read.
 struct ReadOptions {
   /// Names of the columns of a text file in order ("x", "y", "z", any other name keeps that column as
   /// an attribute, "-" skips it). Empty: from the header line, else x y z and the rest as columns.
   std::vector<std::string> columns{};
-  PcdViewpoint pcd_viewpoint = PcdViewpoint::automatic;
+  PcdViewpoint pcd_viewpoint = PcdViewpoint::automatic; ///< what VIEWPOINT means
   bool sensors = true; ///< false: what the file, and those beside it, say of sensors is left out
   double scale = 1;    ///< > 0; coordinates and places of sensors are multiplied with it,
   Vec3 shift{};        ///< then this is added to them
@@ -74,6 +75,7 @@ struct Extent {
   Box3 bounds; ///< of the finite points
   Box3 bulk;   ///< the same without the outer 2 % on either side of each axis
 };
+/// Box of the finite points, and of their bulk.
 Extent extent_of(std::span<const Vec3> points);
 /// A sentence for each thing that is odd about several scans of one scene: sizes that differ as units do, no overlap.
 /// \param names of the inputs, for the sentences; as many as there are extents
@@ -113,23 +115,26 @@ std::vector<std::uint32_t> read_scan_index(const std::filesystem::path& path, st
 ///         are not as many as the scans
 void read_scan_sensors(const std::filesystem::path& path, PointCloud& cloud);
 
+/// How wide the coordinates of a written file are.
 enum class CoordinateType : std::uint8_t {
   automatic, ///< float32 where that keeps all vertices apart and within 1e-3 of `spacing`, else float64
   float32,
   float64
 };
 
+/// How a mesh or a cloud is written.
 struct WriteOptions {
-  CoordinateType coordinates = CoordinateType::automatic;
-  double spacing = 0;                ///< median sample spacing; 0: the median edge length is taken
-  std::vector<std::string> comments; ///< written where the format has room for them
-  std::string format{};              ///< "ply", "obj" ...; empty: that of the name's extension
+  CoordinateType coordinates = CoordinateType::automatic; ///< float32 or float64
+  double spacing = 0;                                     ///< median sample spacing; 0: the median edge length is taken
+  std::vector<std::string> comments;                      ///< written where the format has room for them
+  std::string format{};                                   ///< "ply", "obj" ...; empty: that of the name's extension
   /// What was added to the coordinates of the input. Written as a comment; formats without any (stl, csv, las), and
   /// those that need an offset of their own, get a file NAME.offset.txt with the numbers that lead back.
   Vec3 shift{};
   double metres = 0; ///< length of the coordinates' unit in metres, for formats that tell it (glb, 3mf); 0: not known
 };
 
+/// What was written.
 struct WriteResult {
   CoordinateType coordinates = CoordinateType::float64; ///< what was chosen
   Vec3 offset;                       ///< subtracted from the coordinates (STL and 3MF far from the origin)
@@ -155,6 +160,7 @@ WriteResult write_point_cloud(const std::filesystem::path& path, const PointClou
 
 /// Is there a writer for this extension, or this format if one is given? For refusing a name before the work starts.
 bool can_write_mesh(const std::filesystem::path& path, const std::string& format = {});
+/// The same for point clouds.
 bool can_write_point_cloud(const std::filesystem::path& path, const std::string& format = {});
 
 /// Finds out now what write_file_atomically would find out in the end: is there a folder in which a file can be made,
@@ -174,12 +180,16 @@ class OutputFiles {
   OutputFiles(const OutputFiles&) = delete;
   OutputFiles& operator=(const OutputFiles&) = delete;
 
-  // As write_mesh, write_point_cloud and write_file_atomically, but the file does not appear. Devices and pipes are
-  // written at once.
+  /// \name Files to appear
+  /// @{
+
+  /// As write_mesh, write_point_cloud and write_file_atomically, but the file does not appear. Devices and pipes are
+  /// written at once.
   WriteResult add_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options = {});
   WriteResult add_point_cloud(const std::filesystem::path& path, const PointCloud& cloud,
                               const WriteOptions& options = {});
   void add(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
+  /// @}
 
   /// \throws Error{input} naming the first file that cannot take its place; those before it have
   void put_in_place();

@@ -12,6 +12,7 @@
 
 namespace eigencrust {
 
+/// How a mesh is measured.
 struct MeasureOptions {
   /// Rays that look for the thinnest wall. Of larger meshes every second, third ... triangle sends one, so that a thin
   /// place of few triangles may be missed. 0: none.

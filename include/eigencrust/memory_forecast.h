@@ -12,6 +12,7 @@
 
 namespace eigencrust {
 
+/// What a reconstruction will take.
 struct Forecast {
   std::uint64_t memory_bytes = 0; ///< largest resident memory of the process
   double seconds = 0;             ///< one thread of the machine it was measured on: a rough figure
@@ -19,6 +20,7 @@ struct Forecast {
 
 /// For a cloud of `points` rows. \param further_bytes what its attributes and indices take beside the coordinates
 Forecast forecast(std::uint64_t points, std::uint64_t further_bytes = 0);
+/// The same for this cloud with its attributes.
 Forecast forecast(const PointCloud& cloud);
 
 /// Bytes of a cloud beside its coordinates.

@@ -15,9 +15,11 @@ namespace eigencrust {
 class Observer {
  public:
   virtual ~Observer() = default;
+  /// A stage has begun.
   virtual void stage_begins(std::string_view /*stage*/) {}
-  /// \param fraction of the current stage in [0, 1], never decreasing within a stage
+  /// How much of the current stage is done, in [0, 1], never decreasing within a stage.
   virtual void progress(double /*fraction*/) {}
+  /// A stage is over.
   virtual void stage_ends(std::string_view /*stage*/, double /*seconds*/) {}
   /// Return true to stop at the next check; reconstruct() then throws ErrorKind::cancelled.
   virtual bool cancelled() { return false; }

@@ -16,6 +16,7 @@ namespace eigencrust {
 
 /// One option.
 struct OptionEntry {
+  /// What its values are.
   enum class Kind : std::uint8_t {
     choice, ///< one of a few words
     length, ///< a length in the unit of the input, or a word; some take N%, too
@@ -25,6 +26,7 @@ struct OptionEntry {
     points, ///< x,y,z; each setting adds a point
     bytes   ///< 4G, 500M, a number of bytes
   };
+  /// The chapter of the help that it stands in.
   enum class Group : std::uint8_t {
     known,     ///< points whose side is known beforehand
     method,    ///< changes the labels or which pieces are kept
@@ -33,11 +35,11 @@ struct OptionEntry {
     library    ///< not on the command line
   };
 
-  std::string_view name; ///< as on the command line without its dashes: grid-spacing
-  Kind kind = Kind::choice;
-  Group group = Group::method;
-  std::string_view value; ///< what help shows for it: "L", or the words of a choice: "on|off"
-  std::string_view help;  ///< without a full stop and without the default
+  std::string_view name;       ///< as on the command line without its dashes: grid-spacing
+  Kind kind = Kind::choice;    ///< what its values are
+  Group group = Group::method; ///< its chapter
+  std::string_view value;      ///< what help shows for it: "L", or the words of a choice: "on|off"
+  std::string_view help;       ///< without a full stop and without the default
   void (*set)(Options& options, const std::string& value); ///< \throws Error{usage} naming the accepted values
   std::string (*get)(const Options& options);              ///< reads back through `set`, but for points and "none"
 };

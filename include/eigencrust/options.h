@@ -12,6 +12,7 @@
 
 namespace eigencrust {
 
+/// Which defaults.
 enum class Preset : std::uint8_t {
   robust, ///< the measured best
   paper   ///< Kolluri, Shewchuk and O'Brien (2004) to the letter
@@ -30,10 +31,12 @@ enum class Weights : std::uint8_t {
   evidence, ///< those of isolated samples count only as far as their Voronoi cells are long
   paper     ///< all count in full
 };
+/// How the eigenvectors are found.
 enum class Eigensolver : std::uint8_t {
   multigrid, ///< signed aggregation multigrid: about ten steps at any size
   lanczos    ///< the reference: thousands of matrix products on large clouds
 };
+/// How tetrahedra without a label get one (§3.4).
 enum class SecondStage : std::uint8_t {
   cut,        ///< the exact minimum of an energy on all of them. docs/decisions/0026
   harmonic,   ///< both supernodes fixed at +1 and -1, the rest solved for
@@ -45,6 +48,7 @@ enum class Questionable : std::uint8_t {
   after,  ///< their labels are removed after the first partition, as in the paper
   never
 };
+/// How inside is told from outside (§3.2).
 enum class GlobalSign : std::uint8_t {
   vote,     ///< long Voronoi cells beside the known outside decide; an outlier has none
   supernode ///< §3.2: the sign of the outside supernode's own component
@@ -55,6 +59,7 @@ enum class SurfaceKind : std::uint8_t {
   samples,   ///< at input points
   fitted     ///< fitted wherever the fit itself finds noise. docs/decisions/0036
 };
+/// How a mesh is smoothed (§3.6).
 enum class Smoothing : std::uint8_t {
   laplacian, ///< §3.6: each vertex to the centroid of its neighbours; shrinks
   taubin     ///< alternating steps that keep the volume (Taubin 1995)
@@ -67,14 +72,15 @@ enum class ManifoldRule : std::uint8_t {
 
 /// A length that may be found out from the cloud.
 struct LengthChoice {
+  /// What `value` means.
   enum class Kind : std::uint8_t {
     automatic,
     off,    ///< 0
     length, ///< `value` in the unit of the input
     percent ///< `value` percent of the bounding box's diagonal
   };
-  Kind kind = Kind::automatic;
-  double value = 0;
+  Kind kind = Kind::automatic; ///< what `value` means
+  double value = 0;            ///< see Kind
 
   /// The length given; none: it is automatic.
   [[nodiscard]] std::optional<double> given(double diagonal) const;
@@ -82,14 +88,15 @@ struct LengthChoice {
 
 /// A length of the result, in terms of the cloud.
 struct SurfaceLength {
+  /// What `value` means.
   enum class Kind : std::uint8_t {
     off,
     length,  ///< `value` in the unit of the input
     percent, ///< `value` percent of the bounding box's diagonal
     sigma    ///< `value` times the deviation of the noise, the median of the samples
   };
-  Kind kind = Kind::off;
-  double value = 0;
+  Kind kind = Kind::off; ///< what `value` means
+  double value = 0;      ///< see Kind
 
   /// 0: off, or there is no noise.
   [[nodiscard]] double resolve(double diagonal, double sigma) const;
@@ -97,18 +104,20 @@ struct SurfaceLength {
 
 /// Which pieces of the surface are kept.
 struct KeepComponents {
+  /// Which ones.
   enum class Kind : std::uint8_t {
     supported, ///< all but specks and pieces made of long edges; what goes is listed in the report
     all,
     largest,
     count ///< the `count` largest by number of vertices
   };
-  Kind kind = Kind::supported;
-  std::uint32_t count = 1;
+  Kind kind = Kind::supported; ///< which ones
+  std::uint32_t count = 1;     ///< how many, with Kind::count
 };
 
+/// How the eigenvectors are found, and when that ends.
 struct SolverOptions {
-  Eigensolver eigensolver = Eigensolver::multigrid;
+  Eigensolver eigensolver = Eigensolver::multigrid; ///< the solver
   /// Stop when signs no longer change; otherwise on the residual alone.
   bool stop_on_stable_signs = true;
   /// Share of all nodes that may still change sign in each of two steps running; in (0, 1].
@@ -121,9 +130,9 @@ struct SolverOptions {
 
 /// What one call of reconstruct() may be told. The defaults are those of the preset `robust`.
 struct Options {
-  Preset preset = Preset::robust;
-  Method method = Method::eigencrust;
-  SolverOptions solver;
+  Preset preset = Preset::robust;     ///< which the defaults are of
+  Method method = Method::eigencrust; ///< which surface is made
+  SolverOptions solver;               ///< of the eigenvectors
   /// docs/decisions/0013.
   Weights weights = Weights::evidence;
   /// How unlabelled tetrahedra are settled (§3.4).
@@ -134,18 +143,19 @@ struct Options {
   LengthChoice grid_spacing;
   /// Standard deviation of the noise across the surface; automatic: measured at the samples. docs/decisions/0024.
   LengthChoice noise;
+  /// When tetrahedra below the noise lose their say (§3.3).
   Questionable questionable = Questionable::before;
   /// How inside is told from outside once the two sides are apart (§3.2).
   GlobalSign global_sign = GlobalSign::vote;
   /// Make the surface a manifold by relabelling (§3.5).
   bool manifold = true;
-  ManifoldRule manifold_rule = ManifoldRule::cheapest;
-  KeepComponents components;
+  ManifoldRule manifold_rule = ManifoldRule::cheapest; ///< how it is made one
+  KeepComponents components;                           ///< which pieces of the surface are kept
   /// Whether vertices move to the middle of the noise (not in the paper).
   SurfaceKind surface = SurfaceKind::automatic;
   /// Smoothing steps (§3.6); 0: none. Vertices then leave the samples.
   std::uint32_t smooth = 0;
-  Smoothing smoothing = Smoothing::laplacian;
+  Smoothing smoothing = Smoothing::laplacian; ///< how `smooth` moves the vertices
   /// Triangles are made fewer, down to so many; 0: all stay. docs/decisions/0041.
   std::uint32_t triangles = 0;
   /// Triangles are made fewer as long as no place, either way, is farther than this from the surface before. With
@@ -183,7 +193,10 @@ struct Options {
   static Options of(Preset preset);
 };
 
-// Names as the command line and the report write them.
+/// \name Names as the command line and the report write them.
+/// @{
+
+/// As the command line and the report write it.
 std::string to_string(Preset value);
 std::string to_string(Method value);
 std::string to_string(Weights value);
@@ -199,8 +212,12 @@ std::string to_string(SceneKind value);
 std::string to_string(const LengthChoice& value);
 std::string to_string(const SurfaceLength& value);
 std::string to_string(const KeepComponents& value);
+/// @}
 
-// The reverse. \throws Error{usage} naming the accepted values.
+/// \name The reverse
+/// @{
+
+/// What a word stands for. \throws Error{usage} naming the accepted values.
 Preset parse_preset(const std::string& text);
 Method parse_method(const std::string& text);
 Weights parse_weights(const std::string& text);
@@ -210,11 +227,17 @@ Questionable parse_questionable(const std::string& text);
 SurfaceKind parse_surface_kind(const std::string& text);
 Smoothing parse_smoothing(const std::string& text);
 Axis parse_axis(const std::string& text);
-LengthChoice parse_length_choice(const std::string& what, const std::string& text);   ///< auto, off, LENGTH or N%
-SurfaceLength parse_surface_length(const std::string& what, const std::string& text); ///< off, LENGTH, N% or "N sigma"
-KeepComponents parse_components(const std::string& text);                             ///< supported, all, largest or N
-std::optional<double> parse_crossing_depth(const std::string& text);                  ///< auto or LENGTH
-Vec3 parse_point(const std::string& text);                                            ///< x,y,z
+/// The same: auto, off, LENGTH or N%. \param what the option, for the message
+LengthChoice parse_length_choice(const std::string& what, const std::string& text);
+/// The same: off, LENGTH, N% or "N sigma". \param what the option, for the message
+SurfaceLength parse_surface_length(const std::string& what, const std::string& text);
+/// The same: supported, all, largest or N.
+KeepComponents parse_components(const std::string& text);
+/// The same: auto or LENGTH.
+std::optional<double> parse_crossing_depth(const std::string& text);
+/// The same: x,y,z.
+Vec3 parse_point(const std::string& text);
+/// @}
 
 /// \throws Error{usage} naming the first option out of range.
 void check_options(const Options& options);

@@ -17,13 +17,13 @@ namespace eigencrust {
 
 /// Values in increasing order, evenly picked by rank where they are many. NaN is left out.
 struct SortedValues {
-  std::vector<float> values;
+  std::vector<float> values;           ///< in increasing order
   std::uint64_t count = 0, inside = 0; ///< of all of them; inside are those below 0
 };
 
 /// How many values lie in each of the equal parts of [low, high]; the last part has those beyond it, too.
 struct Histogram {
-  double low = 0, high = 0;
+  double low = 0, high = 0;   ///< of the first and of the last bar
   std::vector<double> counts; ///< empty: there is nothing to count
 };
 
@@ -43,6 +43,7 @@ struct PageProducts {
 /// Gathers what a page shows from the stages' products; passes everything on to another observer.
 class PageObserver : public Observer {
  public:
+  /// \param next what it passes on what it is told
   explicit PageObserver(Observer& next) : next_(next) {}
   void stage_begins(std::string_view stage) override { next_.stage_begins(stage); }
   void progress(double fraction) override { next_.progress(fraction); }
@@ -54,6 +55,7 @@ class PageObserver : public Observer {
   /// options.point_results is set.
   void finished(const PointCloud& cloud, const Result& result);
 
+  /// What was collected.
   [[nodiscard]] const PageProducts& products() const { return products_; }
 
  private:

@@ -20,6 +20,7 @@ enum class Framing : std::uint8_t {
   all
 };
 
+/// What a picture shows, and how large.
 struct RenderOptions {
   std::uint32_t width = 1200, height = 900; ///< pixels, 16 to 16384
   double azimuth = 30;                      ///< degrees: where the camera stands around the up axis (0: x to the right)
@@ -33,12 +34,14 @@ struct RenderOptions {
   Vec3 clip_normal, clip_point;
   bool wireframe = false; ///< draw the triangles' edges
   bool use_colors = true; ///< red/green/blue attributes where there are any
+  /// Red, green, blue of outer sides, inner sides and the rest.
   std::array<std::uint8_t, 3> front{222, 205, 178}, back{196, 58, 64}, background{255, 255, 255};
 };
 
+/// A picture.
 struct Image {
-  std::uint32_t width = 0, height = 0;
-  std::vector<std::uint8_t> rgb; ///< 3 × width × height, rows from the top
+  std::uint32_t width = 0, height = 0; ///< pixels
+  std::vector<std::uint8_t> rgb;       ///< 3 × width × height, rows from the top
 };
 
 /// Flat-shaded orthographic picture, 3 × 3 supersampled; back faces in `back`, so that a surface turned

@@ -15,29 +15,32 @@
 
 namespace eigencrust {
 
+/// A file that was read.
 struct InputFile {
-  std::string path, sha256;
-  std::uint64_t points = 0;
-  std::vector<Sensor> sensors{}; ///< those that saw a point of it, in the order of the cloud's sensors
-  std::uint64_t points_with_sensor = 0;
+  std::string path, sha256;             ///< its name, and the digest of its bytes
+  std::uint64_t points = 0;             ///< rows of it
+  std::vector<Sensor> sensors{};        ///< those that saw a point of it, in the order of the cloud's sensors
+  std::uint64_t points_with_sensor = 0; ///< of its points
 };
 
+/// What a stage of the work took and counted.
 struct StageReport {
-  std::string name;
-  double seconds = 0;
-  std::uint64_t peak_memory_bytes = 0; ///< of the process up to the end of the stage
-  std::vector<std::pair<std::string, double>> counts;
+  std::string name;                                   ///< as in docs/report.md
+  double seconds = 0;                                 ///< of wall time
+  std::uint64_t peak_memory_bytes = 0;                ///< of the process up to the end of the stage
+  std::vector<std::pair<std::string, double>> counts; ///< what it counted, by name
   bool beside = false; ///< ran beside an earlier stage, on other threads: its seconds are part of that one's
 };
 
+/// How a graph was parted in two; the figures are those of Partition.
 struct PartitionReport {
-  std::string stage; ///< "poles" or "tetrahedra"
-  std::uint64_t nodes = 0, edges = 0;
-  double eigenvalue = 0, residual = 0;
-  std::uint32_t iterations = 0;
-  std::vector<std::uint32_t> sign_changes;
-  std::uint32_t components = 0, free_components = 0;
-  SolverStatus status = SolverStatus::trivial;
+  std::string stage;                                 ///< "poles" or "tetrahedra"
+  std::uint64_t nodes = 0, edges = 0;                ///< of the graph
+  double eigenvalue = 0, residual = 0;               ///< see Partition
+  std::uint32_t iterations = 0;                      ///< on the finest level
+  std::vector<std::uint32_t> sign_changes;           ///< per iteration
+  std::uint32_t components = 0, free_components = 0; ///< of the graph, and those without a supernode
+  SolverStatus status = SolverStatus::trivial;       ///< why it ended
 };
 
 /// How far the vertices of the mesh are from their input points.
@@ -68,39 +71,42 @@ struct ShapeReport {
 
 /// Triangles that were made fewer (Options::triangles, Options::max_error) or regular (Options::edge).
 struct SimplifiedReport {
-  std::uint64_t vertices_before = 0, triangles_before = 0, vertices = 0, triangles = 0;
-  double max_error = 0; ///< the one asked for as a length; 0: none
-  double edge = 0;      ///< the same
-  DeviationReport deviation;
+  std::uint64_t vertices_before = 0, triangles_before = 0, vertices = 0,
+                triangles = 0;      ///< of the mesh before and after
+  double max_error = 0;             ///< the one asked for as a length; 0: none
+  double edge = 0;                  ///< the same
+  DeviationReport deviation;        ///< how far the new surface is from the one before
   std::uint64_t held = 0;           ///< vertices before that stay, for triangles would cross or be too far off there
   std::uint64_t crossing = 0;       ///< pairs of triangles that cross or are degenerate all the same
   std::optional<ShapeReport> shape; ///< with Options::edge
 };
 
+/// What was done and found: docs/report.md.
 struct Report {
-  std::vector<std::string> command;
-  std::vector<InputFile> files;
-  std::uint64_t points = 0, duplicates = 0, nonfinite = 0;
-  double spacing = 0; ///< median side of the square that a sample stands for
-  Box3 bounds;        ///< of the finite points
-  Options options;
-  std::vector<StageReport> stages;
-  std::vector<PartitionReport> partitions;
-  MeshSummary mesh;
+  std::vector<std::string> command; ///< the words of the command line; empty where the library was called
+  std::vector<InputFile> files;     ///< that were read
+  std::uint64_t points = 0, duplicates = 0,
+                nonfinite = 0;             ///< rows, and how many of them repeat others or are not finite
+  double spacing = 0;                      ///< median side of the square that a sample stands for
+  Box3 bounds;                             ///< of the finite points
+  Options options;                         ///< as they were used
+  std::vector<StageReport> stages;         ///< in their order
+  std::vector<PartitionReport> partitions; ///< of poles, then of tetrahedra
+  MeshSummary mesh;                        ///< what validate() says of the result
   double grid_spacing = 0; ///< the ℓ of the scans or the one given, used with the paper's weights; 0: off
-  std::vector<DroppedComponent> dropped_components;
-  std::uint64_t undecided_nodes = 0;
-  std::uint64_t sight_lines = 0;              ///< from samples to their sensors; 0: no sensor is known
-  std::uint64_t contradicting_rays = 0;       ///< those that cross what was found to be inside
-  std::optional<OneSided> one_sided;          ///< the sensors all lie on one side
-  Surroundings surroundings;                  ///< what was scanned
-  std::optional<Base> base;                   ///< where Options::base was asked for
+  std::vector<DroppedComponent> dropped_components; ///< pieces that were not kept
+  std::uint64_t undecided_nodes = 0;                ///< of the graphs, left without a sign
+  std::uint64_t sight_lines = 0;                    ///< from samples to their sensors; 0: no sensor is known
+  std::uint64_t contradicting_rays = 0;             ///< those that cross what was found to be inside
+  std::optional<OneSided> one_sided;                ///< the sensors all lie on one side
+  Surroundings surroundings;                        ///< what was scanned
+  std::optional<Base> base;                         ///< where Options::base was asked for
   double unsupported_area = 0;                ///< share of the surface's area that no samples bear out, before trimming
   std::optional<MovedReport> moved;           ///< none: every vertex is an input point
   std::optional<SimplifiedReport> simplified; ///< none: triangles are those of the surface
-  double seconds = 0;
-  std::uint64_t peak_memory_bytes = 0;
-  std::vector<std::string> warnings;
+  double seconds = 0;                         ///< of the whole run
+  std::uint64_t peak_memory_bytes = 0;        ///< of the process
+  std::vector<std::string> warnings;          ///< what there is to know before use, with what to do
   /// What the mesh was promised to be and is not (closed, manifold, oriented, free of crossings): a fault of the
   /// program.
   std::vector<std::string> broken_guarantees;

@@ -20,7 +20,9 @@ class Session {
   /// Points named in `options` count in every call of label(). \throws as reconstruct()
   explicit Session(PointCloud cloud, const Options& options = {}, Observer& observer = *default_observer());
   ~Session();
+  /// Moves.
   Session(Session&&) noexcept;
+  /// Moves.
   Session& operator=(Session&&) noexcept;
 
   /// The surface with these points known, in input coordinates. Result::tetrahedralization is empty, see below; the
@@ -32,6 +34,7 @@ class Session {
 
   /// What Result::labels refer to.
   [[nodiscard]] const Tetrahedralization& tetrahedralization() const;
+  /// The points.
   [[nodiscard]] const PointCloud& cloud() const;
 
  private:

@@ -19,12 +19,12 @@ namespace eigencrust {
 
 /// The distinct finite points, exactly relative to an origin, along a Hilbert curve.
 struct Samples {
-  Vec3 origin;
-  IndexedArray<SampleIndex, Vec3> positions;
+  Vec3 origin;                                     ///< what was subtracted from the coordinates
+  IndexedArray<SampleIndex, Vec3> positions;       ///< relative to the origin
   IndexedArray<SampleIndex, std::uint32_t> source; ///< smallest row with these coordinates
   std::vector<SampleIndex> of_row; ///< the sample of each row, duplicates included; invalid where it is not finite
-  std::uint64_t duplicates = 0, nonfinite = 0;
-  Box3 bounds; ///< input coordinates
+  std::uint64_t duplicates = 0, nonfinite = 0; ///< rows that repeat a sample, and that are not finite
+  Box3 bounds;                                 ///< input coordinates
 };
 /// \throws Error{input} for fewer than 5 distinct finite points or more than 2^32 - 9
 Samples prepare_samples(std::span<const Vec3> points, const Threads& threads);
@@ -42,6 +42,7 @@ double resolve_grid_spacing(const LengthChoice& option, const Samples& samples, 
 /// is called meanwhile on another, if there is one.
 /// \throws Error{input} when all samples are coplanar or collinear
 Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const std::function<void()>& beside = {});
+/// The tetrahedra around each vertex.
 VertexStars vertex_stars(const Tetrahedralization& tetrahedralization, const Threads& threads);
 
 /// §3: the pole pair of every sample, the farthest circumcentres on either side. With `reach` (may be empty;
@@ -62,9 +63,9 @@ Labels known_labels(const Tetrahedralization& tetrahedralization, const VertexSt
 
 /// What the scanner looked along when it saw a sample.
 struct SightLine {
-  SampleIndex sample;
-  float depth = 0; ///< what begins nearer to the sample, or has a sample nearer to the line, is not crossed; length
-  Vec3 target;     ///< the scanner, or a place beyond all samples in its direction; relative to the origin
+  SampleIndex sample; ///< where it begins
+  float depth = 0;    ///< what begins nearer to the sample, or has a sample nearer to the line, is not crossed; length
+  Vec3 target;        ///< the scanner, or a place beyond all samples in its direction; relative to the origin
 };
 /// One line for each place from which a sample was seen, ordered by sample, then place; duplicates count once.
 /// \param sample_of_row as Samples has it
@@ -76,9 +77,10 @@ std::vector<SightLine> sight_lines(const PointCloud& cloud, std::span<const Samp
 
 /// The tetrahedra that each line crosses, in their order along it (compressed rows).
 struct SightCrossings {
-  std::vector<std::uint64_t> begin; ///< number of lines + 1
-  std::vector<TetrahedronIndex> tetrahedra;
+  std::vector<std::uint64_t> begin;         ///< number of lines + 1
+  std::vector<TetrahedronIndex> tetrahedra; ///< of all lines, one after another
 
+  /// Those of one line.
   [[nodiscard]] std::span<const TetrahedronIndex> operator[](std::size_t line) const {
     return {tetrahedra.data() + begin[line], tetrahedra.data() + begin[line + 1]};
   }
@@ -92,7 +94,7 @@ SightCrossings sight_crossings(const Tetrahedralization& tetrahedralization, con
 
 /// With Weights::paper more than one line makes a tetrahedron outside and nothing makes it inside.
 struct SightRule {
-  Weights weights = Weights::evidence;
+  Weights weights = Weights::evidence; ///< which rule counts the lines
   SampleLengthsView isolated =
       {}; ///< of each sample, see samples/sample_model.h; tetrahedra at those are not made inside
 };
@@ -102,13 +104,14 @@ struct SightRule {
 /// line crosses with enough samples right in front (neither is in the paper; docs/decisions/0017). With
 /// Weights::paper all lines count and nothing else.
 struct SightLabels {
-  Labels labels;
+  Labels labels; ///< the known ones and those that the lines decided
   /// How many lines that are believed cross each tetrahedron, and how many samples lie right in front of it; 255: or
   /// more.
   IndexedArray<TetrahedronIndex, std::uint8_t> front, behind;
   std::uint64_t disbelieved = 0;         ///< lines
   std::uint64_t outside = 0, inside = 0; ///< tetrahedra that the lines made so
 };
+/// What the lines decide (§3.1), added to what is known.
 SightLabels line_of_sight(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
                           std::span<const SightLine> lines, const SightCrossings& crossings, const SightRule& rule,
                           const Labels& known, const Threads& threads);
@@ -141,13 +144,14 @@ Partition partition_poles(const PoleGraph& graph, const SolverOptions& options, 
 /// supernode get none: nothing tells their sign.
 /// `trust` is the agreement Σ w x / Σ |w x| of a node's neighbours with its own sign, not below 0 (not in the paper).
 struct PoleLabels {
-  Labels labels;
+  Labels labels;                                      ///< of the tetrahedra; those of poles are set
   IndexedArray<TetrahedronIndex, std::uint8_t> trust; ///< agreement of labelled poles, 255: 1
   bool reversed = false;                              ///< the vote overruled the outside supernode's own sign
   double vote = 0;                                    ///< evidence for the sign chosen, in [-1, 1]; 1 = unanimous
   std::uint64_t left_to_stage_two = 0;                ///< poles of components whose side is open
   std::uint64_t contradicted = 0;                     ///< poles whose neighbours disagree
 };
+/// Labels from the signs of the partition (§3.2).
 PoleLabels label_poles(const Tetrahedralization& tetrahedralization, const Poles& poles, const PoleGraph& graph,
                        const Partition& partition, std::span<const std::uint32_t> component, const Labels& known,
                        GlobalSign global_sign, const Threads& threads);
@@ -178,6 +182,7 @@ struct ManifoldCounts {
   std::uint64_t relabelled = 0;          ///< tetrahedra
   std::uint64_t overruled = 0;           ///< tetrahedra that are not what they are known to be
 };
+/// Turns labels until the surface is a manifold (§3.5).
 ManifoldCounts make_manifold(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
                              const Labels& known, TetrahedronLabels& labels, const Threads& threads,
                              const Checkpoint& checkpoint = {});
@@ -185,13 +190,14 @@ ManifoldCounts make_manifold(const Tetrahedralization& tetrahedralization, const
 /// §3: the faces between inside and outside, counter-clockwise seen from outside; sample_of[v] is the
 /// sample behind vertex v, coordinates are still relative to the origin.
 struct Surface {
-  TriangleMesh mesh;
-  std::vector<SampleIndex> sample_of;
+  TriangleMesh mesh;                    ///< input coordinates
+  std::vector<SampleIndex> sample_of;   ///< the sample that each vertex is
   std::vector<TetrahedronIndex> inside; ///< the tetrahedron behind each triangle
   std::vector<float> support;           ///< of each triangle, see measure_support
   /// Of each triangle: 1 where the samples do not bear it out, see unsupported_triangles; empty until that is known.
   std::vector<std::uint8_t> unsupported{};
 };
+/// The faces between inside and outside (§3).
 Surface extract_surface(const Tetrahedralization& tetrahedralization, const Labels& labels, const Threads& threads);
 
 /// §3.6. \throws Error{usage} never; boundary vertices stay

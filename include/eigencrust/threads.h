@@ -18,6 +18,7 @@ class Threads {
   Threads(const Threads&) = delete;
   Threads& operator=(const Threads&) = delete;
 
+  /// How many there are.
   [[nodiscard]] unsigned size() const;
 
   /// Calls work(block) once for each block in [0, blocks), in any order, from all threads. If blocks

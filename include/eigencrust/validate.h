@@ -11,6 +11,7 @@
 
 namespace eigencrust {
 
+/// How a mesh is looked at.
 struct ValidateOptions {
   bool self_intersections = true;   ///< the dearest of the checks
   bool merge_equal_vertices = true; ///< first make vertices with equal coordinates one, as readers do
@@ -19,8 +20,8 @@ struct ValidateOptions {
 
 /// A set of triangles joined along shared edges.
 struct ComponentSummary {
-  std::uint32_t vertices = 0, triangles = 0;
-  std::int64_t euler = 0;
+  std::uint32_t vertices = 0, triangles = 0; ///< of this piece
+  std::int64_t euler = 0;                    ///< vertices - edges + triangles
   /// (2 - euler - boundary loops)/2 for an orientable piece with manifold edges; of a piece with
   /// non-manifold vertices or edges the value after cutting those apart. -1 where not orientable.
   std::int64_t genus = 0;
@@ -34,8 +35,10 @@ struct ComponentSummary {
 /// (exact predicate); duplicates of a triangle show as non-manifold or inconsistent edges. Triangles
 /// that name one vertex twice are counted but take no part in edges, vertices and components.
 struct MeshSummary {
-  std::uint64_t vertices = 0, triangles = 0;
-  std::uint64_t unreferenced_vertices = 0; ///< not counted in `vertices`
+  std::uint64_t vertices = 0, triangles = 0; ///< after equal vertices were made one, where that was asked for
+  std::uint64_t unreferenced_vertices = 0;   ///< not counted in `vertices`
+  /// Edges with one triangle, and the loops they make; edges with more than two; vertices with more than one fan; edges
+  /// along which two triangles run the same way; triangles without area.
   std::uint64_t boundary_edges = 0, boundary_loops = 0, nonmanifold_edges = 0, nonmanifold_vertices = 0,
                 inconsistent_edges = 0, degenerate_triangles = 0;
   /// Pairs of triangles that intersect in more than a shared vertex or edge (shared: of equal
@@ -44,15 +47,18 @@ struct MeshSummary {
   /// false: there are at least so many. Triangles whose boxes overlap those of more than 256 others are looked at until
   /// there were a hundred million such pairs.
   bool all_self_intersections = true;
-  std::uint64_t components = 0;
+  std::uint64_t components = 0;      ///< sets of triangles joined along edges
   std::int64_t euler = 0, genus = 0; ///< genus: sum over the components, -1 if one is not orientable
   double volume = 0;                 ///< signed, by the divergence theorem from the box's centre; positive = outward
-  double area = 0;
-  Box3 bounds;
+  double area = 0;                   ///< of all triangles
+  Box3 bounds;                       ///< of the vertices in use
   std::vector<ComponentSummary> component_list; ///< largest first, all of them
 
+  /// Every edge has two triangles or more, and there are triangles.
   [[nodiscard]] bool closed() const { return boundary_edges == 0 && components > 0; }
+  /// No edge has more than two triangles, every vertex has one fan.
   [[nodiscard]] bool manifold() const { return nonmanifold_edges == 0 && nonmanifold_vertices == 0; }
+  /// Neighbours run along their edge in opposite directions.
   [[nodiscard]] bool oriented() const { return inconsistent_edges == 0; }
 };
 

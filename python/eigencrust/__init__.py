@@ -22,9 +22,11 @@ from ._api import (
     forecast,
     info,
     join_scans,
+    measure,
     orient,
     outliers,
     read_mesh,
+    read_mesh_and_unit,
     read_point_cloud,
     read_scan_index,
     read_scan_sensors,
@@ -44,6 +46,7 @@ from ._core import (
     ComponentSummary,
     DistanceStatistics,
     Mesh,
+    MeshMeasures,
     MeshSummary,
     PointCloud,
     Result,
@@ -51,6 +54,7 @@ from ._core import (
     can_write_mesh,
     can_write_point_cloud,
     encode_png,
+    length_in_words,
     sha256_of_file,
 )
 from ._errors import Cancelled, Error, GuaranteeError, InputError, MemoryLimitError, NoSurfaceError, UsageError
@@ -86,6 +90,8 @@ def _dress() -> None:
     Result._repr_html_ = _display.result_html
     MeshSummary.as_dict = lambda summary: _json.loads(summary._json)
     MeshSummary.__repr__ = _display.summary_repr
+    MeshMeasures.as_dict = lambda measures: _json.loads(measures._json)
+    MeshMeasures.__repr__ = lambda measures: f"<eigencrust.MeshMeasures: {measures.printability}>"
 
 
 def _remade_mesh(vertices, triangles, vertex_attributes, triangle_attributes):  # type: ignore[no-untyped-def]

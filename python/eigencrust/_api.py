@@ -263,6 +263,25 @@ def check(
     return _core.validate(as_mesh(mesh, "mesh"), self_intersections, merge_equal_vertices, threads)
 
 
+def measure(
+    mesh: Any,
+    *,
+    metres: Optional[float] = None,
+    self_intersections: bool = True,
+    walls: bool = True,
+    threads: int = 0,
+) -> _core.MeshMeasures:
+    """Angles, edges and the thinnest wall of a mesh, and whether it can be printed.
+
+    mesh is as for check(). metres: length of its unit, 0.001 for mm; None: what the file says, else unknown. walls:
+    False leaves out the search for the thinnest wall.
+    """
+    if isinstance(mesh, (str, os.PathLike)):
+        mesh, of_file = read_mesh_and_unit(mesh)
+        metres = of_file if metres is None else metres
+    return _core.measure(as_mesh(mesh, "mesh"), metres or 0.0, self_intersections, walls, threads)
+
+
 def compare(
     mesh: Any, reference: Any, *, samples: int = 100_000, seed: int = 1, threshold: float = 0, threads: int = 0
 ) -> _core.Comparison:
@@ -279,7 +298,7 @@ def info(points: Any, *, threads: int = 0) -> Dict[str, Any]:
     notes: List[str] = []
     warnings: List[str] = []
     if isinstance(points, (str, os.PathLike)):
-        points, notes, warnings = _core.read_point_cloud(points, [], "auto", True)
+        points, notes, warnings = _core.read_point_cloud(points, [], "auto", True, 1.0, (0.0, 0.0, 0.0))
     cloud = _make_cloud(points, nonfinite="skip")
     figures: Dict[str, Any] = json.loads(_core.info_json(cloud, threads))
     figures["notes"], figures["warnings"] = notes, warnings
@@ -295,15 +314,22 @@ def forecast(points: Union[int, "ArrayLike", _core.PointCloud]) -> Forecast:
 
 
 def read_point_cloud(
-    path: Path, *, columns: Sequence[str] = (), pcd_viewpoint: str = "auto", sensors: bool = True
+    path: Path,
+    *,
+    columns: Sequence[str] = (),
+    pcd_viewpoint: str = "auto",
+    sensors: bool = True,
+    scale: float = 1.0,
+    shift: Tuple[float, float, float] = (0.0, 0.0, 0.0),
 ) -> _core.PointCloud:
     """Reads a cloud with all its attributes: ply e57 las ptx pcd pts npz npy xyz txt asc csv obj off stl glb 3mf.
 
     columns: names of a text file's columns in order, "-" skips one. pcd_viewpoint: auto, sensor, pose or none.
-    sensors: False leaves out what the file says of sensors. What could be read in two ways is
+    sensors: False leaves out what the file says of sensors. Coordinates are multiplied with scale, then shift is added
+    to them. What could be read in two ways is
     logged as information, what was left out or looks wrong as a warning.
     """
-    cloud, notes, warnings = _core.read_point_cloud(path, list(columns), pcd_viewpoint, sensors)
+    cloud, notes, warnings = _core.read_point_cloud(path, list(columns), pcd_viewpoint, sensors, scale, tuple(shift))
     for note in notes:
         logger.info("%s: %s", path, note)
     _warned(path, warnings)
@@ -311,8 +337,16 @@ def read_point_cloud(
 
 
 def read_mesh(path: Path) -> _core.Mesh:
-    """Reads a mesh: ply obj off stl glb 3mf."""
-    return _core.read_mesh(path)
+    """Reads a mesh: ply obj off stl glb 3mf. What was left out is logged as information."""
+    return read_mesh_and_unit(path)[0]
+
+
+def read_mesh_and_unit(path: Path) -> Tuple[_core.Mesh, Optional[float]]:
+    """Reads a mesh, and the length of its unit in metres: 1 for glb, what a 3mf file says, None for other formats."""
+    mesh, metres, notes = _core.read_mesh(path)
+    for note in notes:
+        logger.info("%s: %s", path, note)
+    return mesh, metres or None
 
 
 def _warned(path: Path, warnings: Iterable[str]) -> None:
@@ -327,23 +361,39 @@ def write_mesh(
     coordinates: str = "auto",
     spacing: Optional[float] = None,
     comments: Sequence[str] = (),
+    format: str = "",
+    metres: float = 0.0,
+    shift: Tuple[float, float, float] = (0.0, 0.0, 0.0),
 ) -> None:
     """Writes a mesh, whole or not at all: ply obj off stl glb 3mf.
 
     coordinates: auto, float32 or float64; auto takes float32 where that moves no vertex by more than a thousandth of
-    `spacing` (of a Result it is known; else the median edge length).
+    `spacing` (of a Result it is known; else the median edge length). format: "ply", "obj" ..., else that of the name's
+    extension. metres: length of the unit, for formats that tell it (glb, 3mf). shift: what was added to the coordinates
+    when they were read; it is written as a comment, or into a file .offset.txt beside formats without any.
     """
     if spacing is None:
         spacing = mesh.report["input"]["spacing"] if isinstance(mesh, _core.Result) else 0.0
-    _warned(path, _core.write_mesh(path, as_mesh(mesh, "mesh"), coordinates, spacing, list(comments)))
+    made = as_mesh(mesh, "mesh")
+    _warned(path, _core.write_mesh(path, made, coordinates, spacing, list(comments), format, tuple(shift), metres))
 
 
 def write_point_cloud(
-    path: Path, cloud: Any, *, coordinates: str = "auto", spacing: float = 0.0, comments: Sequence[str] = ()
+    path: Path,
+    cloud: Any,
+    *,
+    coordinates: str = "auto",
+    spacing: float = 0.0,
+    comments: Sequence[str] = (),
+    format: str = "",
+    shift: Tuple[float, float, float] = (0.0, 0.0, 0.0),
 ) -> None:
-    """Writes a cloud with its attributes, whole or not at all: ply xyz txt asc csv."""
+    """Writes a cloud with its attributes, whole or not at all: ply pcd las xyz txt asc csv obj.
+
+    Arguments are those of write_mesh().
+    """
     made = _make_cloud(cloud, nonfinite="skip")
-    _warned(path, _core.write_point_cloud(path, made, coordinates, spacing, list(comments)))
+    _warned(path, _core.write_point_cloud(path, made, coordinates, spacing, list(comments), format, tuple(shift)))
 
 
 def join_scans(scans: Sequence[Union["ArrayLike", _core.PointCloud]]) -> _core.PointCloud:
@@ -371,8 +421,9 @@ def render(objects: Any, *, up: Union[str, Tuple[float, float, float]] = "y", **
     """A picture of a mesh, a cloud or a result, or of several side by side: (height, width, 3) uint8.
 
     up: x, y, z, -x, -y, -z or a direction. Further: width, height (pixels), azimuth, elevation, roll (degrees), zoom,
-    point_size (pixels), clip_normal, clip_point, wireframe, use_colors, front, back, background (0 to 255 each). Back
-    faces are red. Needs no display.
+    point_size (pixels), view ("front", "back", "left", "right", "top", "bottom", in place of azimuth and elevation),
+    frame ("bulk" or "all": with strays), clip_normal, clip_point, wireframe, use_colors, front, back, background (0 to
+    255 each). Back faces are red. Needs no display.
     """
     if isinstance(up, str):
         if up not in _axes:

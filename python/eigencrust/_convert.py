@@ -111,7 +111,7 @@ def as_mesh(mesh: Any, what: str) -> _core.Mesh:
     if isinstance(mesh, (_core.Result, _core.stages.Surface)):
         return mesh.mesh
     if isinstance(mesh, (str, os.PathLike)):
-        return _core.read_mesh(mesh)
+        return _core.read_mesh(mesh)[0]
     if isinstance(mesh, (tuple, list)) and len(mesh) == 2:
         return _core.Mesh(mesh[0], mesh[1])
     triangles = getattr(mesh, "triangles", getattr(mesh, "faces", None))

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <eigencrust/error.h>
+#include <eigencrust/io.h>
 #include <eigencrust/validate.h>
 
 #include "bindings.h"
@@ -71,6 +72,11 @@ std::shared_ptr<PointCloud> make_cloud(const py::object& points, const py::objec
   const std::size_t n = cloud->points.size();
   if (!scan_index.is_none()) cloud->scan_index = to_indices(scan_index, "scan_index", n, no_index - 1);
   cloud->attributes = to_attributes(attributes, n, "points");
+  // As readers do: columns that number the rows and columns of a range image tell which points are beside which.
+  if (std::optional<ScanGrids> grids = find_grids(*cloud)) {
+    cloud->grids = std::move(grids->sizes);
+    cloud->cell = std::move(grids->cell);
+  }
   if (!sensors.is_none() && !sensor_directions.is_none())
     fail_sensors("sensors and sensor_directions exclude one another");
   if (!sensors.is_none()) set_sensors(*cloud, sensors, false);

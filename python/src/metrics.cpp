@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <eigencrust/error.h>
+#include <eigencrust/measures.h>
 #include <eigencrust/memory_forecast.h>
 #include <eigencrust/report.h>
 #include <eigencrust/threads.h>
@@ -58,6 +59,54 @@ void bind_summary(py::module_& module) {
         return validate(mesh, {self_intersections, merge_equal_vertices, threads});
       },
       py::call_guard<py::gil_scoped_release>());
+}
+
+/// The measures of a mesh with what they belong to.
+struct Measured {
+  MeshSummary summary;
+  MeshMeasures measures;
+  double metres = 0;
+};
+
+Measured measured(const TriangleMesh& mesh, double metres, bool self_intersections, bool walls, unsigned threads) {
+  if (!(metres >= 0) || !std::isfinite(metres))
+    throw Error(ErrorKind::usage, "metres", "it is no length", "give the length of the unit in metres, 0.001 for mm");
+  Measured m{.summary = validate(mesh, {.self_intersections = self_intersections, .threads = threads}),
+             .measures = {},
+             .metres = metres};
+  m.measures = measure(mesh, m.summary, {.most_rays = walls ? MeasureOptions{}.most_rays : 0u, .threads = threads});
+  return m;
+}
+
+void bind_measures(py::module_& module) {
+  using M = Measured;
+  const auto figure = [](auto member) { return [member](const M& m) { return m.measures.*member; }; };
+  py::class_<M>(module, "MeshMeasures", "How regular triangles are, how thick the body is, and if it can be printed.")
+      .def_property_readonly("smallest_angle", figure(&MeshMeasures::smallest_angle), "Of a triangle, degrees.")
+      .def_property_readonly("largest_angle", figure(&MeshMeasures::largest_angle), "Of a triangle, degrees.")
+      .def_property_readonly("worst_aspect", figure(&MeshMeasures::worst_aspect),
+                             "Longest side over the diameter of the inscribed circle, 1 for equal sides.")
+      .def_property_readonly("shortest_edge", figure(&MeshMeasures::shortest_edge), "In the unit of the mesh.")
+      .def_property_readonly("median_edge", figure(&MeshMeasures::median_edge), "In the unit of the mesh.")
+      .def_property_readonly("longest_edge", figure(&MeshMeasures::longest_edge), "In the unit of the mesh.")
+      .def_property_readonly("thinnest_wall", figure(&MeshMeasures::thinnest_wall),
+                             "Thickness that no triangle of the thinnest wall exceeds; None: not closed, or no wall.")
+      .def_property_readonly(
+          "thinnest_place",
+          [](const M& m) {
+            return m.measures.thinnest_wall ? py::object(as_tuple(m.measures.thinnest_place)) : py::none();
+          },
+          "Middle of a triangle of that wall, (x, y, z); None without one.")
+      .def_property_readonly("wall_rays", figure(&MeshMeasures::wall_rays), "How many triangles looked for a wall.")
+      .def_readonly("summary", &M::summary, "What check() says of the mesh.")
+      .def_readonly("metres", &M::metres, "Length of the mesh's unit in metres; 0: not known.")
+      .def_property_readonly(
+          "printability", [](const M& m) { return printability(m.summary, m.measures, m.metres); },
+          "Can the body be printed? In words, with what is in the way.")
+      .def_property_readonly("_json", [](const M& m) { return to_json(m.summary, m.measures, m.metres); });
+  module.def("measure", &measured, py::call_guard<py::gil_scoped_release>());
+  module.def("length_in_words", &length_in_words, py::arg("length"), py::arg("metres"),
+             "\"0.4 mm\", \"1.2 m\" of a length in a unit of so many metres; 0: no unit is known.");
 }
 
 void bind_comparison(py::module_& module) {
@@ -194,6 +243,7 @@ void bind_distances(py::module_& module) {
 
 void bind_metrics(py::module_& module) {
   bind_summary(module);
+  bind_measures(module);
   bind_comparison(module);
   bind_distances(module);
   module.def(

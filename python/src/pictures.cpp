@@ -28,6 +28,13 @@ Image image_of(const py::array_t<std::uint8_t, py::array::c_style>& pixels) {
   return image;
 }
 
+/// \throws Error{usage}
+Framing framing_of(const std::string& frame) {
+  if (frame == "bulk") return Framing::bulk;
+  if (frame == "all") return Framing::all;
+  throw Error(ErrorKind::usage, "frame", "'" + frame + "' is not known", "use bulk or all");
+}
+
 } // namespace
 
 void bind_pictures(py::module_& module) {
@@ -35,9 +42,10 @@ void bind_pictures(py::module_& module) {
   module.def(
       "render",
       [](const std::vector<std::shared_ptr<TriangleMesh>>& objects, std::uint32_t width, std::uint32_t height,
-         double azimuth, double elevation, double roll, double zoom, const std::array<double, 3>& up, double point_size,
-         const std::array<double, 3>& clip_normal, const std::array<double, 3>& clip_point, bool wireframe,
-         bool use_colors, Colour front, Colour back, Colour background) {
+         double azimuth, double elevation, double roll, double zoom, const std::array<double, 3>& up,
+         const std::string& view, const std::string& frame, double point_size, const std::array<double, 3>& clip_normal,
+         const std::array<double, 3>& clip_point, bool wireframe, bool use_colors, Colour front, Colour back,
+         Colour background) {
         RenderOptions o;
         o.width = width;
         o.height = height;
@@ -54,6 +62,8 @@ void bind_pictures(py::module_& module) {
         o.front = front;
         o.back = back;
         o.background = background;
+        o.framing = framing_of(frame);
+        if (!view.empty()) o = seen_from(view, o);
         Image image;
         {
           const py::gil_scoped_release unlocked;
@@ -69,11 +79,11 @@ void bind_pictures(py::module_& module) {
       },
       py::arg("objects"), py::kw_only(), py::arg("width") = standard.width, py::arg("height") = standard.height,
       py::arg("azimuth") = standard.azimuth, py::arg("elevation") = standard.elevation, py::arg("roll") = standard.roll,
-      py::arg("zoom") = standard.zoom, py::arg("up") = std::array<double, 3>{0, 1, 0},
-      py::arg("point_size") = standard.point_size, py::arg("clip_normal") = std::array<double, 3>{},
-      py::arg("clip_point") = std::array<double, 3>{}, py::arg("wireframe") = standard.wireframe,
-      py::arg("use_colors") = standard.use_colors, py::arg("front") = standard.front, py::arg("back") = standard.back,
-      py::arg("background") = standard.background);
+      py::arg("zoom") = standard.zoom, py::arg("up") = std::array<double, 3>{0, 1, 0}, py::arg("view") = "",
+      py::arg("frame") = "bulk", py::arg("point_size") = standard.point_size,
+      py::arg("clip_normal") = std::array<double, 3>{}, py::arg("clip_point") = std::array<double, 3>{},
+      py::arg("wireframe") = standard.wireframe, py::arg("use_colors") = standard.use_colors,
+      py::arg("front") = standard.front, py::arg("back") = standard.back, py::arg("background") = standard.background);
   module.def("encode_png", [](const py::array_t<std::uint8_t, py::array::c_style>& pixels) {
     const std::vector<std::byte> bytes = encode_png(image_of(pixels));
     return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
