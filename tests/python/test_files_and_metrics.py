@@ -61,6 +61,39 @@ class Files(unittest.TestCase):
         np.testing.assert_array_equal(copy.triangles, again.triangles)
         np.testing.assert_array_equal(copy.vertex_attributes["k"], range(4))
 
+    def test_units_and_shifts(self):
+        mesh = eigencrust.Mesh(*TETRAHEDRON)
+        eigencrust.write_mesh(self.folder / "mm.3mf", mesh, metres=0.001)
+        again, metres = eigencrust.read_mesh_and_unit(self.folder / "mm.3mf")
+        self.assertEqual((metres, eigencrust.check(again).volume), (0.001, eigencrust.check(mesh).volume))
+        self.assertIn("mm", eigencrust.measure(self.folder / "mm.3mf").printability)
+        eigencrust.write_mesh(self.folder / "mm.glb", mesh, metres=0.001)
+        again, metres = eigencrust.read_mesh_and_unit(self.folder / "mm.glb")
+        self.assertAlmostEqual(metres * again.vertices.max(), 0.001, places=9)
+        eigencrust.write_mesh(self.folder / "no_extension", mesh, format="off", shift=(1, 2, 3))
+        self.assertTrue((self.folder / "no_extension").read_bytes().startswith(b"OFF"))
+        eigencrust.write_mesh(self.folder / "shifted.stl", mesh, shift=(100, 0, 0))
+        self.assertIn("100", (self.folder / "shifted.stl.offset.txt").read_text())
+        eigencrust.write_point_cloud(self.folder / "cloud.ply", sphere(20), shift=(0, 0, 7), format="ply")
+        moved = eigencrust.read_point_cloud(self.folder / "cloud.ply", scale=1000, shift=(1, 0, 0))
+        np.testing.assert_allclose(moved.points, 1000 * sphere(20) + (1, 0, 0), atol=1e-3)
+        for wrong in (dict(metres=-1), dict(metres=np.inf), dict(shift=(0, 0, np.nan)), dict(format="doc")):
+            with self.subTest(wrong), self.assertRaises(eigencrust.Error):
+                eigencrust.write_mesh(self.folder / "wrong.ply", mesh, **wrong)
+        for wrong in (dict(scale=0), dict(scale=np.nan), dict(shift=(0, np.inf, 0))):
+            with self.subTest(wrong), self.assertRaises(eigencrust.UsageError):
+                eigencrust.read_point_cloud(self.folder / "cloud.ply", **wrong)
+
+    def test_range_images(self):
+        # The same from an array with columns named row and column as from a file: the grid tells neighbours.
+        row, column = np.divmod(np.arange(900), 30)
+        points = np.stack([column, row, 3.0 * (column > 14)], axis=1)
+        grid = {"row": row, "column": column}
+        eigencrust.write_point_cloud(self.folder / "frame.ply", eigencrust.PointCloud(points, attributes=grid))
+        from_file = eigencrust.reconstruct(eigencrust.read_point_cloud(self.folder / "frame.ply"), trim=True, facade="+z")
+        from_array = eigencrust.reconstruct(points, attributes=grid, trim=True, facade="+z")
+        np.testing.assert_array_equal(from_array.triangles, from_file.triangles)
+
     def test_broken_files(self):
         path = self.folder / "broken.ply"
         path.write_text("ply\nformat ascii 1.0\nelement vertex many\n")
@@ -116,6 +149,31 @@ class Measures(unittest.TestCase):
         self.assertFalse(opened.closed)
         self.assertIsNone(opened.self_intersections)
         self.assertEqual((opened.boundary_edges, opened.boundary_loops), (3, 1))
+
+    def test_measure(self):
+        found = eigencrust.measure(TETRAHEDRON, metres=0.001)
+        self.assertAlmostEqual(found.smallest_angle, 45)
+        self.assertAlmostEqual(found.largest_angle, 90)
+        self.assertAlmostEqual(found.longest_edge, np.sqrt(2))
+        self.assertEqual((found.shortest_edge, found.metres), (1, 0.001))
+        self.assertTrue(found.summary.closed)
+        self.assertIn("printable", repr(found))
+        self.assertEqual(found.as_dict()["closed"], True)
+        # A plate 1 x 1 x 0.1: its thickness, and where.
+        corners = np.array([[x, y, z] for z in (0, 0.1) for y in (0, 1) for x in (0, 1)], float)
+        quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+        plate = (corners, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
+        found = eigencrust.measure(plate, metres=0.01)
+        self.assertAlmostEqual(found.thinnest_wall, 0.1)
+        self.assertEqual(len(found.thinnest_place), 3)
+        self.assertEqual(found.wall_rays, 12)
+        self.assertIn("1 mm", found.printability)
+        self.assertIsNone(eigencrust.measure(plate, walls=False).thinnest_wall)
+        opened = eigencrust.measure((TETRAHEDRON[0], TETRAHEDRON[1][:3]))
+        self.assertIn("not printable", opened.printability)
+        self.assertIsNone(opened.thinnest_place)
+        with self.assertRaises(eigencrust.UsageError):
+            eigencrust.measure(TETRAHEDRON, metres=-1)
 
     def test_compare(self):
         small = eigencrust.reconstruct(sphere(2000)).mesh
@@ -184,7 +242,9 @@ class Pictures(unittest.TestCase):
         self.assertTrue(0.1 < blue.mean() < 0.95)
         side_by_side = eigencrust.render([mesh, sphere(200)], width=64, height=48)
         self.assertEqual(side_by_side.shape, (48, 128, 3))
-        for wrong in (dict(width=1), dict(up="w"), dict(unknown=3)):
+        front = eigencrust.render(mesh, width=64, height=48, up="z", view="front", frame="all", background=(0, 0, 255))
+        self.assertFalse((front == picture).all())
+        for wrong in (dict(width=1), dict(up="w"), dict(unknown=3), dict(view="beside"), dict(frame="some")):
             with self.assertRaises(eigencrust.UsageError):
                 eigencrust.render(mesh, **wrong)
         with tempfile.TemporaryDirectory() as folder:
