@@ -270,7 +270,7 @@ function details() {
       "p",
       {},
       make("a", { href: address, download: "report.json" }, "Save the report as JSON"),
-      `; eigencrust ${report.version} rerun report.json does the run again.`,
+      `; eigencrust rerun report.json does the run again, with version ${report.version} to the same bytes.`,
     ),
   );
 }

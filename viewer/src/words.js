@@ -18,7 +18,7 @@ export function measured() {
   const files = counted(input.files.length, "file", "files");
   const lines = [
     `${counted(input.points, "point was", "points were")} read from ${files}; they are typically ` +
-      `${rounded(input.spacing)} apart.`,
+      `${rounded(input.spacing)} apart, in the unit of the input.`,
   ];
   if (knowsOutliers)
     lines.push(
@@ -77,7 +77,8 @@ export function thrownAway() {
   if (scene.outliers.all > 0)
     lines.push(
       `${counted(scene.outliers.all, "point", "points")} (${percent(scene.outliers.all / input.points)}) are ` +
-        `outliers: farther from the surface than spacing and noise explain. The mesh ignores them.`,
+        `outliers: farther from the surface than spacing and noise explain. The mesh ignores them; tick "Outliers" ` +
+        "beside the view to see where they are.",
     );
   if (input.duplicates > 0)
     lines.push(`${counted(input.duplicates, "point repeats", "points repeat")} the place of another one.`);
