@@ -16,6 +16,7 @@ extern "C" {
 #endif
 
 #if defined(__GNUC__)
+/** What a shared library shows. */
 #define EIGENCRUST_C_API __attribute__((visibility("default")))
 #else
 #define EIGENCRUST_C_API

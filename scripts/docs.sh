@@ -56,7 +56,7 @@ if [ -s "$work/doxygen.log" ]; then
   cat "$work/doxygen.log" >&2
   fail "Doxygen has $(grep -c 'warning:' "$work/doxygen.log") warnings; describe what it names"
 fi
-PYTHONPATH=$build/python PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 scripts/docs/site.py "$site.new" "$version"
+PYTHONPATH=$build/python PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 scripts/docs/make_site.py "$site.new" "$version"
 /usr/bin/python3 scripts/docs/check_links.py "$site.new"
 rm -rf "$site"
 mv "$site.new" "$site"

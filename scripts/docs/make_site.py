@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Markdown pages of the project and the Python reference as HTML. Usage: site.py FOLDER VERSION
+"""The Markdown pages of the project and the Python reference as HTML. Usage: make_site.py FOLDER VERSION
 
 Links to pages follow; other files of the project that pages link to are copied, and folders get a page that lists them.
 Needs Debian's python3-markdown, and the package eigencrust on the path.
