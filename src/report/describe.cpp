@@ -211,7 +211,7 @@ void describe(const UnsupportedTriangles& unsupported, Run& run) {
   constexpr double usual = 0.1;
   if (report.unsupported_area > usual && !report.options.trim)
     run.warn(std::to_string(std::lround(100 * report.unsupported_area)) +
-             " % of the surface's area was invented: no samples bear it out" +
+             " % of the surface's area was bridged without data: it is invented, no samples bear it out" +
              (report.one_sided ? " (the sensors all lie on one side)" : "") + "; --trim leaves it out" +
              words_on_what_it_is(report));
 }

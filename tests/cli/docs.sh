@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash disable=SC2154
-# docs/parameters.md and --help-all name the same options and defaults.
+# What the pages say is what the program does: options, defaults, exit statuses, versions, commands, links.
 
 # options VERB: `--name|default|default of the preset paper` per line; empty where --help-all gives none. Defaults
 # stand at the end as [robust] or [robust; paper: other].
@@ -75,16 +75,79 @@ test_every_promise_has_its_test() {
   ! is_there Shells.NoSuchTest && ! is_there cli.faults.no_such_test && ! is_there fuzz/none.cpp || die "is_there() is blind"
 }
 
-# Not only rows: any --word of the page.
+# Not only rows of the table: any --word of the pages, but on lines about other programs.
 test_every_option_of_the_docs_exists() {
-  local page=$repository/docs/parameters.md name verb
-  [ -f "$page" ] || skip "docs/parameters.md is not here"
+  local page name verb count=0
+  [ -d "$repository/docs" ] || skip "docs is not here"
   for verb in reconstruct orient outliers info check compare render demo rerun; do
     "$program" "$verb" --help-all
   done >help
-  for name in $(grep -oE -- '--[a-z][a-z-]*' "$page" | sort -u); do
-    grep -qE -- "$name([^a-z-]|\$)" help || die "docs/parameters.md speaks of $name, which no verb knows"
+  for page in README.md docs/{parameters,formats,report,guarantees,algorithm,crusts,python}.md docs/walkthroughs/*.md; do
+    for name in $(cd "$repository" && grep -vE 'pip |cmake |venv |scripts/' $page | { grep -oE -- '--[a-z][a-z-]*' || true; } | sort -u); do
+      grep -qE -- "$name([^a-z-]|\$)" help || die "$page speaks of $name, which no verb knows"
+      count=$((count + 1))
+    done
   done
+  [ "$count" -ge 100 ] || die "only $count options were found"
+}
+
+# statuses FILE START: the numbers of exit statuses in a file from a line on that matches, up to an empty line.
+statuses() {
+  awk -v start="$2" '$0 ~ start { on = 1 } on && /^$/ { exit } on' "$1" | grep -oE "$3" | grep -oE '[0-9]+' | tr '\n' ' '
+}
+
+test_exit_statuses_agree() {
+  [ -d "$repository/docs" ] || skip "docs is not here"
+  "$program" --help >help
+  local wanted errors
+  wanted=$(statuses help '^Exit status' '(: |; )[0-9]+ ')
+  errors=${wanted#0 }
+  equal "the statuses of --help" "$wanted" "0 2 3 4 5 6 130 "
+  equal "docs/guarantees.md" "$(statuses "$repository/docs/guarantees.md" '^\| exit status' '^\| [0-9]+')" "$wanted"
+  equal "eigencrust_c.h" "$(statuses "$repository/include/eigencrust_c.h" '^typedef enum eigencrust_status' '= [0-9]+')" "$wanted"
+  equal "error.h" "$(statuses "$repository/include/eigencrust/error.h" '^enum class ErrorKind' '= [0-9]+')" "$errors"
+  equal "docs/python.md" "$(statuses "$repository/docs/python.md" '^\| exception' '` \| [0-9]+')" "$errors"
+}
+
+test_versions_agree() {
+  [ -f "$repository/CHANGELOG.md" ] || skip "CHANGELOG.md is not here"
+  local version
+  version=$("$program" --version)
+  version=${version#eigencrust }
+  equal CITATION.cff "$(sed -n 's/^version: //p' "$repository/CITATION.cff")" "$version"
+  equal "the newest version of CHANGELOG.md" "$(sed -n 's/^## \[\([0-9.]*\)\].*/\1/p' "$repository/CHANGELOG.md" | head -n 1)" "$version"
+  equal "what docs/development.md asks for" \
+    "$(sed -n 's/^find_package(eigencrust \([0-9.]*\).*/\1/p' "$repository/docs/development.md")" "${version%.*}"
+  "$program" man | head -n 2 | grep -qF "eigencrust $version" || die "the manual page is of another version"
+}
+
+# Times and memory are those of the machine.
+measured_away() { sed -E 's/ in [0-9.]+ m?s, [0-9.]+ MB$//'; }
+
+test_readme_shows_what_the_demo_prints() {
+  [ -f "$repository/README.md" ] || skip "README.md is not here"
+  awk '/^<!-- output of the demo -->/ { on = 1; next } on && /^```$/ { if (++fences == 2) exit; next } on' \
+    "$repository/README.md" | measured_away >wanted
+  [ "$(wc -l <wanted)" -ge 6 ] || die "README.md does not show what the demo prints"
+  expect 0 demo
+  # The scan is named as the program finds it.
+  sed -E 's|[^ ]*/?examples/teapot_scan.ply|examples/teapot_scan.ply|' out | measured_away >found
+  diff wanted found || die "README.md shows something else"
+}
+
+# The commands of the README as they stand there, on the bundled scan, thinned.
+test_readme_commands_run() {
+  [ -f "$repository/README.md" ] || skip "README.md is not here"
+  local name
+  expect 0 outliers "$repository/examples/teapot_scan.ply" -o scan.ply --thin 0.04
+  for name in left right top; do cp scan.ply $name.ply; done
+  grep -oE '^    build/eigencrust [a-z].*' "$repository/README.md" | sed 's/ *#.*//; s/^ *//' | grep -v ' demo$' >commands
+  [ "$(wc -l <commands)" -ge 9 ] || die "only $(wc -l <commands) commands in README.md"
+  mkdir build
+  ln -s "$program" build/eigencrust
+  [ -e "$(dirname -- "$program")/viewer.html" ] || sed -i '/page\.html/d' commands # scripts/viewer.sh was not called
+  sed -i '/compare/i cp mesh.ply truth.ply' commands
+  bash -e commands >out 2>err </dev/null || die "a command of README.md failed"
 }
 
 # walk PAGE: all commands of the walkthrough, as they stand there, on the bundled scan, thinned.

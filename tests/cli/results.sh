@@ -223,11 +223,11 @@ test_trim_keeps_what_was_seen() {
   awk 'BEGIN { for (i = 0; i < 1600; ++i) { x = i % 40; y = int(i / 40); print x, y, 2 * sin(x / 5) * cos(y / 6) } }' \
     >wall.xyz
   expect 0 wall.xyz -o closed.ply --sensor 20,20,60 --report report.json
-  grep -q 'was invented' err || die "no warning"
+  grep -q 'was bridged without data' err || die "no warning"
   grep -q 'one-sided scan' out || die "does not say that it is one-sided"
   equal facade "$(value report.json /options/facade)" auto
   expect 0 wall.xyz -o open.ply --sensor 20,20,60 --trim --report report.json
-  if grep -q 'was invented' err; then die "warned in vain"; fi
+  if grep -q 'was bridged without data' err; then die "warned in vain"; fi
   [ "$(value report.json /mesh/boundary_loops)" -gt 0 ] || die "no boundary"
   [ "$(value report.json /mesh/vertices)" -gt 1500 ] || die "too much is gone"
   expect 0 wall.xyz -o off.ply --sensor 20,20,60 --facade off --report report.json

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash disable=SC2154
-# What scripts/numbers.py and scripts/lines.sh find in sources that are known.
+# What scripts/numbers.py, scripts/lines.sh and scripts/docs find in sources that are known.
 
 test_numbers_are_listed_with_name_and_comment() {
   local python
@@ -47,4 +47,44 @@ test_long_functions_and_files_are_found() {
   grep -q 'src/a.cpp:7: 119 lines: .*long_one' found || die "the long function is not found: $(cat found)"
   grep -q 'functions over 60 lines: 1$' found || die "other functions are found, too: $(cat found)"
   grep -q 'src/io/b.h: 601 lines' found || die "the long file is not found: $(cat found)"
+}
+
+test_dead_links_of_a_site_are_found() {
+  local python
+  python=$(command -v python3) || skip "there is no python3"
+  mkdir -p site/sub
+  echo '<h1 id="here">a</h1><a href="sub/b.html#there">b</a><a href="#here">a</a><a href="https://example.org/x">x</a>' >site/a.html
+  echo '<h2 id="there">b</h2><a href="../a.html">a</a><img src="../p.png">' >site/sub/b.html
+  touch site/p.png
+  "$python" "$repository/scripts/docs/check_links.py" site >found || die "good links are called dead: $(cat found)"
+  equal "what it says" "$(cat found)" "4 links, 0 lead nowhere"
+  echo '<a href="gone.html">1</a><a href="a.html#gone">2</a><a href="#gone">3</a><a href="../out.html">4</a>' >site/c.html
+  touch out.html
+  "$python" "$repository/scripts/docs/check_links.py" site >found && die "dead links pass"
+  equal "dead links" "$(grep -c '^c.html: ' found)" 4
+}
+
+test_declarations_of_several_names_are_all_described() {
+  local python
+  python=$(command -v python3) || skip "there is no python3"
+  cat >known.h <<'END'
+struct A {
+  double low = 0, high = 1; ///< bounds
+  /// Colours.
+  std::array<int, 3> front{1, 2, 3}, back{4, 5, 6};
+  int one = 0; ///< alone
+  void call(int a, int b);
+};
+END
+  cat >expected <<'END'
+struct A {
+  double low = 0; /**< bounds */ double high = 1; /**< bounds */
+  /// Colours.
+  std::array<int, 3> front{1, 2, 3}; /**< Colours. */ std::array<int, 3> back{4, 5, 6}; /**< Colours. */
+  int one = 0; ///< alone
+  void call(int a, int b);
+};
+END
+  "$python" "$repository/scripts/docs/split_declarations.py" known.h | sed '$d' >found
+  diff expected found || die "declarations are taken apart in another way"
 }

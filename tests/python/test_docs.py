@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The examples of docs/python.md run, in their order, and print what the page says they print."""
+"""The examples of docs/python.md and README.md run, in their order, and print what the page says they print."""
 
 import contextlib
 import io
@@ -9,9 +9,10 @@ import shutil
 import tempfile
 import unittest
 
-from support import REPOSITORY, TEAPOT
+from support import REPOSITORY, TEAPOT, sphere
 
 PAGE = REPOSITORY / "docs" / "python.md"
+README = REPOSITORY / "README.md"
 
 
 def blocks(text):
@@ -28,9 +29,14 @@ def blocks(text):
 
 class Docs(unittest.TestCase):
     def test_every_block(self):
-        found = blocks(PAGE.read_text(encoding="utf-8"))
-        self.assertGreater(len(found), 8)
-        names = {}
+        self.run_blocks(PAGE, 8, {})
+
+    def test_readme(self):
+        self.run_blocks(README, 0, {"points": sphere(500)})
+
+    def run_blocks(self, page, least, names):
+        found = blocks(page.read_text(encoding="utf-8"))
+        self.assertGreater(len(found), least)
         before = os.getcwd()
         with tempfile.TemporaryDirectory() as folder:
             shutil.copy(TEAPOT, os.path.join(folder, "scan.ply"))
@@ -38,7 +44,7 @@ class Docs(unittest.TestCase):
             try:
                 for line, code, expected in found:
                     with self.subTest(line=line), contextlib.redirect_stdout(io.StringIO()) as said:
-                        exec(compile("\n" * (line - 1) + code, str(PAGE), "exec"), names)
+                        exec(compile("\n" * (line - 1) + code, str(page), "exec"), names)
                     if expected is not None:
                         self.assertEqual(said.getvalue(), expected, f"line {line}")
             finally:
