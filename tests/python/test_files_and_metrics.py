@@ -66,7 +66,7 @@ class Files(unittest.TestCase):
         eigencrust.write_mesh(self.folder / "mm.3mf", mesh, metres=0.001)
         again, metres = eigencrust.read_mesh_and_unit(self.folder / "mm.3mf")
         self.assertEqual((metres, eigencrust.check(again).volume), (0.001, eigencrust.check(mesh).volume))
-        self.assertIn("mm", eigencrust.measure(self.folder / "mm.3mf").printability)
+        self.assertEqual(eigencrust.measure(self.folder / "mm.3mf").metres, 0.001)
         eigencrust.write_mesh(self.folder / "mm.glb", mesh, metres=0.001)
         again, metres = eigencrust.read_mesh_and_unit(self.folder / "mm.glb")
         self.assertAlmostEqual(metres * again.vertices.max(), 0.001, places=9)
@@ -158,7 +158,7 @@ class Measures(unittest.TestCase):
         self.assertEqual((found.shortest_edge, found.metres), (1, 0.001))
         self.assertTrue(found.summary.closed)
         self.assertIn("printable", repr(found))
-        self.assertEqual(found.as_dict()["closed"], True)
+        self.assertEqual((found.as_dict()["unit_metres"], found.as_dict()["boundary_edges"]), (0.001, 0))
         # A plate 1 x 1 x 0.1: its thickness, and where.
         corners = np.array([[x, y, z] for z in (0, 0.1) for y in (0, 1) for x in (0, 1)], float)
         quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]

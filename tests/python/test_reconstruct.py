@@ -310,6 +310,9 @@ class Watching(unittest.TestCase):
             np.testing.assert_array_equal(result.triangles, eigencrust.reconstruct(points[i]).triangles)
 
     def test_ctrl_c(self):
+        # Of a program that was started in the background the signal is ignored from the start.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
         points = np.random.default_rng(1).normal(size=(200_000, 3))
         timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
         timer.start()

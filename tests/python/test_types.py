@@ -10,7 +10,7 @@ import sys
 import unittest
 
 import eigencrust
-from eigencrust import _core
+from eigencrust import _core, stages
 
 PACKAGE = pathlib.Path(eigencrust.__file__).parent
 
@@ -62,7 +62,14 @@ class Stubs(unittest.TestCase):
     def test_marked_as_typed(self):
         self.assertTrue((PACKAGE / "py.typed").exists())
 
+    def test_everything_public_is_exported(self):
+        self.assertEqual(eigencrust.__all__, sorted(public(eigencrust) - {"annotations"}))
+
     def test_everything_public_has_a_docstring(self):
+        for name in stages.__all__:
+            thing = getattr(stages, name)
+            if inspect.isroutine(thing):
+                self.assertTrue(inspect.getdoc(thing), name)
         for name in eigencrust.__all__:
             thing = getattr(eigencrust, name)
             if inspect.isroutine(thing) or inspect.isclass(thing):
@@ -70,12 +77,15 @@ class Stubs(unittest.TestCase):
 
     @unittest.skipUnless(importlib.util.find_spec("mypy"), "mypy is not installed")
     def test_mypy(self):
-        program = "import eigencrust, numpy as np\nr = eigencrust.reconstruct(np.zeros((9, 3)), noise=0.1, smooth=2)\nreveal_type(r.vertices)\n"
+        program = "import eigencrust, numpy as np\nr = eigencrust.reconstruct(np.zeros((9, 3)), noise=0.1, smooth=2)\nreveal_type(r.vertices)\nreveal_type(eigencrust.measure(r))\neigencrust.reconstruct([], progress=3)\n"
         run = subprocess.run(
-            [sys.executable, "-m", "mypy", "--strict", "--no-incremental", "--cache-dir=/dev/null", "-c", program],
+            [sys.executable, "-m", "mypy", "--strict", "--no-incremental", "--cache-dir=/dev/null", "--follow-imports=silent", "-c", program],
             capture_output=True, text=True, check=False, env={"MYPYPATH": str(PACKAGE.parent), "PATH": "/usr/bin:/bin"},
         )  # fmt: skip
-        self.assertIn("float64", run.stdout, run.stdout + run.stderr)
+        self.assertRegex(run.stdout, "(float64|_64Bit)", run.stdout + run.stderr)
+        self.assertIn("MeshMeasures", run.stdout)
+        self.assertIn('Argument "progress" to "reconstruct" has incompatible type', run.stdout)
+        self.assertNotIn("does not explicitly export", run.stdout)
         self.assertNotIn("error: Unexpected keyword", run.stdout)
 
 
