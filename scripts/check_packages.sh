@@ -77,6 +77,12 @@ the_package() {
   echo "$repository"/build-package/eigencrust_*.deb
 }
 
+# inside TREE COMMAND...: as on a system that runs, with /proc, in a namespace of its own, so that nothing stays mounted.
+inside() {
+  # shellcheck disable=SC2016
+  unshare --mount bash -c 'mount -t proc proc "$0/proc" && exec chroot "$0" "$@"' "$@"
+}
+
 check_bare() {
   [ "$(id -u)" -eq 0 ] || fail "a bare Debian is made by root only"
   install_packages debootstrap
@@ -88,16 +94,16 @@ check_bare() {
   debootstrap --variant=minbase "$suite" "$tree" "${mirror:-http://deb.debian.org/debian}" >"$work/debootstrap.log" ||
     { tail -5 "$work/debootstrap.log"; fail "debootstrap failed"; }
   cp "$package" "$tree/tmp/eigencrust.deb"
-  chroot "$tree" apt-get update -qq
-  chroot "$tree" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends /tmp/eigencrust.deb \
+  inside "$tree" apt-get update -qq
+  inside "$tree" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends /tmp/eigencrust.deb \
     >"$work/install.log" 2>&1 || { tail -20 "$work/install.log"; fail "the package cannot be installed"; }
   # Nobody in particular uses it, in a folder of his own.
-  chroot "$tree" su -s /bin/bash nobody -c 'set -e; cd "$(mktemp -d)"; eigencrust --version; eigencrust demo
+  inside "$tree" su -s /bin/bash nobody -c 'set -e; cd "$(mktemp -d)"; eigencrust --version; eigencrust demo
     python3 -c "import eigencrust; r = eigencrust.reconstruct(eigencrust.read_point_cloud(\"/usr/share/eigencrust/examples/teapot_scan.ply\"));
 print(eigencrust.check(r))"'
   [ -f "$tree/usr/share/bash-completion/completions/eigencrust" ] || fail "the completion is missing"
-  if dpkg-deb --contents "$package" | grep -q viewer.html; then
-    chroot "$tree" su -s /bin/bash nobody -c 'cd "$(mktemp -d)" && eigencrust --quiet \
+  if [ -f "$tree/usr/share/eigencrust/viewer.html" ]; then
+    inside "$tree" su -s /bin/bash nobody -c 'cd "$(mktemp -d)" && eigencrust --quiet \
       /usr/share/eigencrust/examples/teapot_scan.ply -o t.ply --report page.html && ls -l page.html'
   else
     printf 'the package is without the viewer: no page was made\n'
