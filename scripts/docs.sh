@@ -51,6 +51,9 @@ STRIP_FROM_PATH = "$repository/include"
 STRIP_FROM_INC_PATH = include
 INPUT_FILTER = "/usr/bin/python3 scripts/docs/split_declarations.py"
 HAVE_DOT = NO
+MACRO_EXPANSION = YES
+EXPAND_ONLY_PREDEF = YES
+PREDEFINED = EIGENCRUST_C_API= __GNUC__ __cplusplus
 END
 if [ -s "$work/doxygen.log" ]; then
   cat "$work/doxygen.log" >&2

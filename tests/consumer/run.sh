@@ -43,15 +43,19 @@ if ldd "$work/build/method" | grep -E 'libpng|libcrypto|libpugixml|libtinygltf|l
   exit 1
 fi
 
+# Shared libraries in a folder that the system does not know.
+shared=$(find "$work/installed here" -name 'libeigencrust.so')
+[ -z "$shared" ] || export LD_LIBRARY_PATH=${shared%/*}
+
 # The same without CMake, as pkg-config says.
 if command -v pkg-config >/dev/null; then
   export PKG_CONFIG_PATH
   PKG_CONFIG_PATH=$(dirname "$(find "$work/installed here" -name eigencrust.pc)")
   static=--static
-  [ -z "$(find "$work/installed here" -name 'libeigencrust.so')" ] || static=
+  [ -z "$shared" ] || static=
   # The folder's name holds a blank, which pkg-config escapes: hence eval.
   eval "$compiler -x c++ -std=c++20 $here/method.cpp -x none -o $work/by_pkg_config $(pkg-config --cflags --libs $static eigencrust)"
-  LD_LIBRARY_PATH=$(dirname "$PKG_CONFIG_PATH") "$work/by_pkg_config"
+  "$work/by_pkg_config"
 fi
 
 # The program takes the bundled scan from beside itself.
