@@ -39,7 +39,7 @@ WALKTHROUGHS = ["heritage", "print", "robotics", "survey", "research", "embeddin
 STYLE = """
 :root { color-scheme: light dark; --line: #8884; --soft: #8881; }
 body { margin: 0; font: 16px/1.55 system-ui, sans-serif; display: flex; flex-wrap: wrap; }
-nav { box-sizing: border-box; width: 13em; padding: 1.2em; border-right: 1px solid var(--line); }
+nav { box-sizing: border-box; align-self: flex-start; position: sticky; top: 0; width: 13em; padding: 1.2em; border-right: 1px solid var(--line); }
 nav a { display: block; padding: .12em 0; text-decoration: none; }
 nav a[aria-current] { font-weight: bold; }
 nav b { display: block; margin-top: .9em; }
@@ -47,6 +47,7 @@ main { flex: 1 1 30em; min-width: 0; max-width: 62em; padding: 1em 2em 4em; }
 pre, code { font: 14px/1.45 ui-monospace, monospace; background: var(--soft); }
 pre { padding: .7em 1em; overflow-x: auto; border-radius: 5px; }
 pre code { background: none; }
+pre.wrapped { white-space: pre-wrap; }
 table { border-collapse: collapse; display: block; overflow-x: auto; }
 th, td { border: 1px solid var(--line); padding: .25em .6em; text-align: left; vertical-align: top; }
 img { max-width: 100%; background: #fff; }

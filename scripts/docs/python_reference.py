@@ -44,7 +44,7 @@ def described(thing):
     parts = []
     for paragraph in re.split(r"\n\s*\n", text.strip()):
         if "\n " in paragraph or "\n---" in paragraph:
-            parts.append(f"<pre>{html.escape(paragraph)}</pre>")
+            parts.append(f"<pre class=wrapped>{html.escape(paragraph)}</pre>")
         elif paragraph:
             parts.append(f"<p>{html.escape(paragraph)}</p>")
     return "".join(parts)
@@ -54,7 +54,7 @@ def class_entry(name, thing, members):
     parts = [f'<h3 id="{name}">{name}</h3>']
     if "__init__" in members:
         made = members["__init__"][0].replace("__init__", name).replace(" -> None", "")
-        parts.append(f"<pre>{html.escape(made)}</pre>")
+        parts.append(f"<pre class=wrapped>{html.escape(made)}</pre>")
     parts.append(described(thing))
     rows = []
     for member, (text, is_property) in members.items():
@@ -74,7 +74,7 @@ def entries(names, home, known, prefix):
             classes.append(class_entry(name, thing, known.get(name, {})))
         elif inspect.isroutine(thing):
             functions.append(
-                f'<h3 id="{prefix}{name}">{name}</h3><pre>{html.escape(known.get(name, name + "(...)"))}</pre>{described(thing)}'
+                f'<h3 id="{prefix}{name}">{name}</h3><pre class=wrapped>{html.escape(known.get(name, name + "(...)"))}</pre>{described(thing)}'
             )
         elif not inspect.ismodule(thing):
             others.append(f"<li><code>{name} = {html.escape(repr(thing))}</code></li>")
@@ -96,6 +96,6 @@ def page():
         '<h2 id="options">Options of the method</h2><p>Keywords of reconstruct(), orient(), outliers() and Session; '
         'what they do in full: <a href="parameters.html">parameters</a>.</p>'
         f"<table><tr><th>name</th><th>kind</th><th>default</th><th></th></tr>{rows}</table>"
-        f'<h2 id="stages">eigencrust.stages</h2><pre>{html.escape(inspect.getdoc(eigencrust.stages) or "")}</pre>'
+        f'<h2 id="stages">eigencrust.stages</h2><pre class=wrapped>{html.escape(inspect.getdoc(eigencrust.stages) or "")}</pre>'
         f'{entries(eigencrust.stages.__all__, eigencrust.stages, known, "stages.")}'
     )
