@@ -78,7 +78,7 @@ export function thrownAway() {
     lines.push(
       `${counted(scene.outliers.all, "point", "points")} (${percent(scene.outliers.all / input.points)}) are ` +
         `outliers: farther from the surface than spacing and noise explain. The mesh ignores them; tick "Outliers" ` +
-        "beside the view to see where they are.",
+        "under Show to see where they are.",
     );
   if (input.duplicates > 0)
     lines.push(`${counted(input.duplicates, "point repeats", "points repeat")} the place of another one.`);
