@@ -36,6 +36,8 @@ TriangleMesh extruded_ring(const std::vector<Vec3>& inner, const std::vector<Vec
   return mesh;
 }
 
+} // namespace
+
 std::vector<Vec3> points_on_sharp_edges(const TriangleMesh& mesh, double step) {
   std::vector<Vec3> points;
   const std::vector<Side> sides = sorted_sides(mesh.triangles, mesh.vertices.size(), Threads(1));
@@ -49,8 +51,6 @@ std::vector<Vec3> points_on_sharp_edges(const TriangleMesh& mesh, double step) {
   });
   return points;
 }
-
-} // namespace
 
 Truth gear() {
   constexpr int teeth = 18, steps = 4; // each straight piece of the outline in so many

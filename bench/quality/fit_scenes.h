@@ -34,6 +34,9 @@ struct FitScene {
   double spacing = 0;        ///< side of the square that a sample stands for
   std::vector<Vec3> on_edge; ///< points along edges of the truth that are sharper than 40°, a fifth of a spacing apart
 };
+/// Points along the edges that are sharper than 40°, `step` apart.
+std::vector<Vec3> points_on_sharp_edges(const TriangleMesh& mesh, double step);
+
 /// \param sigma in spacings
 FitScene fit_scene(const Truth& truth, std::size_t samples, double sigma, std::uint64_t seed);
 

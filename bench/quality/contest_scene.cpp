@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contest_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include <eigencrust/error.h>
+#include <eigencrust/io.h>
+#include <eigencrust/metrics.h>
+#include <eigencrust/validate.h>
+
+#include "data_folder.h"
+#include "fit_scenes.h"
+#include "geometry/nearest.h"
+#include "parallel/threads.h"
+#include "sampling.h"
+
+namespace eigencrust::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+WriteOptions exactly() {
+  WriteOptions options;
+  options.coordinates = CoordinateType::float64;
+  return options;
+}
+
+Scene scene_of(const ContestCase& item, Sources& sources) {
+  if (item.make) return item.make(sources);
+  Truth truth;
+  if (item.files.size() > 1) truth = sources.truth(item.files[1]);
+  Scene scene = clean_scene(sources.points(item.as_it_is), std::move(truth), sources.threads());
+  scene.true_samples = 0;
+  return scene;
+}
+
+std::array<Vec3, 3> sorted_corners(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+  std::array<Vec3, 3> corners{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+  const auto before = [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
+  std::sort(corners.begin(), corners.end(), before);
+  return corners;
+}
+
+using CornerKey = std::array<double, 9>;
+std::vector<CornerKey> sorted_triangles(const TriangleMesh& mesh) {
+  std::vector<CornerKey> keys;
+  for (const auto& t : mesh.triangles) {
+    const auto [a, b, c] = sorted_corners(mesh, t);
+    keys.push_back({a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z});
+  }
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+void measure_mesh(const TriangleMesh& mesh, unsigned threads, ContestFigures& figures) {
+  constexpr std::size_t many = 3'000'000; // triangles: crossings of more take longer than the methods
+  const MeshSummary summary = validate(mesh, {.self_intersections = mesh.triangles.size() <= many, .threads = threads});
+  figures.triangles = static_cast<double>(summary.triangles);
+  figures.pieces = static_cast<double>(summary.components);
+  figures.genus = static_cast<double>(summary.genus);
+  figures.boundary = static_cast<double>(summary.boundary_edges);
+  figures.nonmanifold = static_cast<double>(summary.nonmanifold_edges + summary.nonmanifold_vertices);
+  figures.crossings = static_cast<double>(summary.self_intersections);
+  if (summary.closed()) figures.volume = std::abs(summary.volume);
+}
+
+void measure_outliers(const fs::path& folder, const ContestScene& scene, const TriangleMesh& mesh, unsigned threads,
+                      ContestFigures& figures) {
+  const std::vector<Vec3> points = read_point_cloud(scene.cloud).points;
+  std::vector<Vec3> outliers;
+  for (const std::uint32_t row : outlier_rows(points, scene.true_samples, threads)) outliers.push_back(points[row]);
+  const auto gaps = distances_to_surface(outliers, mesh, threads);
+  std::vector<double> depths(outliers.size(), 2 * scene.spacing);
+  if (fs::exists(folder / "truth.ply") && !outliers.empty())
+    depths = distances_to_surface(outliers, read_mesh(folder / "truth.ply"), threads);
+  figures.outliers = 0;
+  for (std::size_t i = 0; i < outliers.size();
+       ++i) // one beside the true surface may well be near the one that was found
+    figures.outliers += gaps[i] < scene.spacing && depths[i] >= 2 * scene.spacing;
+}
+
+void measure_truth(const fs::path& folder, const ContestScene& scene, const TriangleMesh& mesh, unsigned threads,
+                   ContestFigures& figures) {
+  if (fs::exists(folder / "truth.ply")) {
+    CompareOptions options;
+    options.threads = threads;
+    options.threshold = 2 * scene.spacing;
+    const Comparison c = compare(mesh, read_mesh(folder / "truth.ply"), options);
+    figures.to_truth = c.to_reference.mean / scene.spacing;
+    figures.from_truth = c.from_reference.mean / scene.spacing;
+    figures.missing = 1 - c.recall;
+  }
+  if (!fs::exists(folder / "edges.ply")) return;
+  const auto gaps = distances_to_surface(read_point_cloud(folder / "edges.ply").points, mesh, threads);
+  figures.edges = summarize(gaps).mean / scene.spacing;
+}
+
+} // namespace
+
+void write_contest_scene(const ContestCase& item, Sources& sources, const fs::path& folder) {
+  const Scene scene = scene_of(item, sources);
+  fs::create_directories(folder);
+  for (const char* old : {"truth.ply", "edges.ply"}) fs::remove(folder / old);
+  const fs::path cloud = item.make ? folder / "cloud.ply" : sources.path(item.as_it_is.string());
+  if (item.make) write_point_cloud(cloud, scene.cloud, exactly());
+  if (scene.truth.mesh) {
+    write_mesh(folder / "truth.ply", *scene.truth.mesh, exactly());
+    PointCloud edges;
+    edges.points = points_on_sharp_edges(*scene.truth.mesh, 0.2 * scene.spacing);
+    // On a scanned shape few and short ones are chance.
+    if (item.group == "fig7") write_point_cloud(folder / "edges.ply", edges, exactly());
+  }
+  const std::int64_t genus = item.genus ? *item.genus : item.make ? scene.truth.genus : -1;
+  const nlohmann::json json{{"cloud", fs::absolute(cloud).string()}, {"points", scene.cloud.points.size()},
+                            {"true_samples", scene.true_samples},    {"spacing", scene.spacing},
+                            {"volume", scene.truth.volume},          {"genus", genus},
+                            {"components", scene.truth.components}};
+  write_text((folder / "scene.json").string(), json.dump(2) + "\n");
+}
+
+ContestScene read_contest_scene(const fs::path& folder) {
+  std::ifstream stream(folder / "scene.json");
+  if (!stream) throw Error(ErrorKind::input, folder.string(), "there is no scene.json", "make the case first");
+  const auto json = nlohmann::json::parse(stream);
+  return {json.at("cloud").get<std::string>(),
+          json.at("points"),
+          json.at("true_samples"),
+          json.at("spacing"),
+          json.at("volume"),
+          json.at("genus"),
+          json.at("components")};
+}
+
+std::vector<std::uint32_t> outlier_rows(const std::vector<Vec3>& points, std::size_t true_samples, unsigned threads) {
+  std::vector<std::uint32_t> rows;
+  if (true_samples > 0) {
+    for (std::size_t i = true_samples; i < points.size(); ++i) rows.push_back(static_cast<std::uint32_t>(i));
+    return rows;
+  }
+  constexpr std::size_t neighbours = 9; // itself and 8: scans lie on each other
+  constexpr double apart = 10;          // medians
+  const PointTree tree(points);
+  std::vector<double> reach(points.size(), 0);
+  const auto measure = [&](std::size_t i) {
+    std::array<std::uint32_t, neighbours> index{};
+    std::array<double, neighbours> squared{};
+    const std::size_t found = tree.nearest(points[i], neighbours, index.data(), squared.data());
+    if (found > 0) reach[i] = std::sqrt(squared[found - 1]);
+  };
+  for_each_index(Threads(threads), points.size(), measure, costly_block);
+  const double limit = apart * summarize(reach).median;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (reach[i] > limit) rows.push_back(static_cast<std::uint32_t>(i));
+  return rows;
+}
+
+double triangle_agreement(const TriangleMesh& a, const TriangleMesh& b) {
+  const std::vector<CornerKey> of_a = sorted_triangles(a), of_b = sorted_triangles(b);
+  std::vector<CornerKey> both;
+  std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(both));
+  const std::size_t most = std::max(of_a.size(), of_b.size());
+  return most == 0 ? 0 : static_cast<double>(both.size()) / static_cast<double>(most);
+}
+
+ContestFigures contest_figures(const fs::path& folder, const fs::path& mesh_file, const fs::path& other,
+                               unsigned threads) {
+  const ContestScene scene = read_contest_scene(folder);
+  const TriangleMesh mesh = read_mesh(mesh_file);
+  ContestFigures figures;
+  if (mesh.triangles.empty())
+    throw Error(ErrorKind::input, mesh_file.string(), "there is no triangle in it", "look at what made it");
+  measure_mesh(mesh, threads, figures);
+  measure_outliers(folder, scene, mesh, threads, figures);
+  measure_truth(folder, scene, mesh, threads, figures);
+  if (!other.empty()) figures.agree = triangle_agreement(mesh, read_mesh(other));
+  return figures;
+}
+
+} // namespace eigencrust::bench
