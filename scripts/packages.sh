@@ -13,6 +13,8 @@ test_packages=("${tool_packages[@]}" libgtest-dev libgmock-dev clang-format)
 # What the Python package is built with, and what its tests need beside it. Open3D comes with 200 MB of others.
 python_packages=(pybind11-dev python3-dev python3-numpy)
 python_test_packages=(python3-pip python3-venv python3-setuptools python3-wheel python3-open3d)
+# What others reconstruct with, to be compared with.
+peer_packages=(python3-open3d)
 fuzz_packages=(clang libclang-rt-14-dev)
 
 fail() {
