@@ -7,8 +7,12 @@ of the file), ball-pivoting or alpha-shape. Prints the processor seconds from re
 with 77 where Open3D is not installed.
 """
 import math
+import os
 import sys
 import time
+
+# Threads that wait for work must not burn the processors of a busy machine, nor count as work.
+os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 
 try:
     import numpy

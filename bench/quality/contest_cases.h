@@ -22,8 +22,9 @@ namespace eigencrust::bench {
 /// Cases that are shown together.
 struct ContestGroup {
   std::string name, title;
-  std::string text;   ///< what the paper shows, and what stands in for data that is not to be had
-  bool sweep = false; ///< the cases are one cloud, more and more disturbed: what breaks when
+  std::string text;         ///< what the paper shows, and what stands in for data that is not to be had
+  bool sweep = false;       ///< the cases are one cloud, more and more disturbed: what breaks when
+  double volume_margin = 0; ///< of a sweep: by which share of the undisturbed volume a surface that holds may differ
 };
 const std::vector<ContestGroup>& contest_groups();
 
@@ -34,6 +35,7 @@ struct ContestCase {
   std::function<Scene(Sources&)> make;
   std::filesystem::path as_it_is;
   std::optional<std::int64_t> genus; ///< of the object; none: that of the made scene, of a file not known
+  std::int64_t genus_slack = 0;      ///< so much more or less is right, too: the object touches itself
   RenderOptions view;
   bool crusts = true, peers = false, curves = false, pictures = true;
   /// Contestants whose surfaces are also put side by side in one picture; "cloud" is the cloud.

@@ -67,6 +67,8 @@ void run_one(const ContestCase& item, const ContestSettings& settings, const Con
       run.note = "no surface";
     else
       look_at(item, settings, mesh, first, run);
+  } catch (const Error& error) {
+    run.note = error.cause();
   } catch (const std::exception& error) {
     run.note = error.what();
   }
@@ -107,8 +109,14 @@ ContestOutcome run_contest(const ContestCase& item, const ContestSettings& setti
   const fs::path folder = contest_folder(item, settings.work), first = folder / "0.ply";
   step_output(settings, {"--step", "make", "--contest", item.group + "/" + item.name, "--folder", folder.string()});
   const ContestScene scene = read_contest_scene(folder);
-  ContestOutcome outcome{
-      item.group, item.name, item.description, scene.points, scene.genus, scene.components, scene.volume, {}, {}, {}};
+  ContestOutcome outcome;
+  outcome.group = item.group;
+  outcome.name = item.name;
+  outcome.description = item.description;
+  outcome.points = scene.points;
+  outcome.genus = scene.genus;
+  outcome.components = scene.components;
+  outcome.volume = scene.volume;
   double limit = 0;
   for (const Contestant& who : contestants(item, settings.programs, scene.cloud, first, settings.threads)) {
     const fs::path mesh = folder / (std::to_string(outcome.runs.size()) + ".ply");

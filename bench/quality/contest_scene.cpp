@@ -69,11 +69,33 @@ void measure_mesh(const TriangleMesh& mesh, unsigned threads, ContestFigures& fi
   if (summary.closed()) figures.volume = std::abs(summary.volume);
 }
 
-void measure_outliers(const fs::path& folder, const ContestScene& scene, const TriangleMesh& mesh, unsigned threads,
-                      ContestFigures& figures) {
+/// Share of the points farther from the surface than 2 % of the diagonal of their box.
+double missed_share(const std::vector<Vec3>& samples, const TriangleMesh& mesh, unsigned threads) {
+  constexpr std::size_t asked = 100'000; // points at most
+  constexpr double reach = 0.02;
+  if (samples.empty()) return -1;
+  Box3 box;
+  for (const Vec3& p : samples) box.add(p);
+  std::vector<Vec3> some;
+  for (std::size_t i = 0; i < samples.size(); i += 1 + samples.size() / asked) some.push_back(samples[i]);
+  const std::vector<double> gaps = distances_to_surface(some, mesh, threads);
+  const double limit = reach * box.diagonal();
+  const auto far = std::count_if(gaps.begin(), gaps.end(), [&](double gap) { return gap > limit; });
+  return static_cast<double>(far) / static_cast<double>(gaps.size());
+}
+
+/// Outliers that the surface goes through, and samples that it does not.
+void measure_rows(const fs::path& folder, const ContestScene& scene, const TriangleMesh& mesh, unsigned threads,
+                  ContestFigures& figures) {
   const std::vector<Vec3> points = read_point_cloud(scene.cloud).points;
-  std::vector<Vec3> outliers;
-  for (const std::uint32_t row : outlier_rows(points, scene.true_samples, threads)) outliers.push_back(points[row]);
+  const std::vector<std::uint32_t> rows = outlier_rows(points, scene.true_samples, threads);
+  std::vector<Vec3> outliers, samples;
+  for (std::size_t i = 0, next = 0; i < points.size(); ++i) {
+    const bool outlier = next < rows.size() && rows[next] == i;
+    next += outlier;
+    (outlier ? outliers : samples).push_back(points[i]);
+  }
+  figures.missed = missed_share(samples, mesh, threads);
   const auto gaps = distances_to_surface(outliers, mesh, threads);
   std::vector<double> depths(outliers.size(), 2 * scene.spacing);
   if (fs::exists(folder / "truth.ply") && !outliers.empty())
@@ -175,7 +197,7 @@ ContestFigures contest_figures(const fs::path& folder, const fs::path& mesh_file
   if (mesh.triangles.empty())
     throw Error(ErrorKind::input, mesh_file.string(), "there is no triangle in it", "look at what made it");
   measure_mesh(mesh, threads, figures);
-  measure_outliers(folder, scene, mesh, threads, figures);
+  measure_rows(folder, scene, mesh, threads, figures);
   measure_truth(folder, scene, mesh, threads, figures);
   if (!other.empty()) figures.agree = triangle_agreement(mesh, read_mesh(other));
   return figures;

@@ -36,14 +36,17 @@ struct ContestFigures {
   double nonmanifold = -1; ///< edges and vertices, equal vertices made one
   double crossings = -1;   ///< pairs of triangles; not counted in meshes of more than three million
   double outliers = -1; ///< of the rows that are none of the surface, those within a spacing of it: see outlier_rows()
+  double missed =
+      -1; ///< share of the samples farther than 2 % of their box's diagonal: a scrap has no outliers, either
   double to_truth = -1, from_truth = -1; ///< mean distances in spacings
   double missing = -1;                   ///< share of the truth farther than two spacings
   double edges = -1;                     ///< mean distance of points on the true sharp edges, in spacings
   double volume = 0;                     ///< whichever way the triangles look; 0: not closed
   double agree = -1;                     ///< triangle_agreement() with the other mesh
 };
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContestFigures, triangles, pieces, genus, boundary, nonmanifold, crossings, outliers,
-                                   to_truth, from_truth, missing, edges, volume, agree)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ContestFigures, triangles, pieces, genus, boundary, nonmanifold,
+                                                crossings, outliers, missed, to_truth, from_truth, missing, edges,
+                                                volume, agree)
 
 /// \param other its triangles are compared; empty: none
 ContestFigures contest_figures(const std::filesystem::path& folder, const std::filesystem::path& mesh,

@@ -21,7 +21,8 @@ std::string length(double value) { return value < 0 ? "" : text("%.2f", value); 
 double genus_error(const ContestRun& run, const ContestOutcome& outcome) {
   if (run.figures.pieces < 0) return -1;
   if (run.figures.genus < 0) return 1e9; // a piece has no two sides
-  return std::abs(run.figures.genus - static_cast<double>(std::max<std::int64_t>(0, outcome.genus)));
+  const double off = std::abs(run.figures.genus - static_cast<double>(std::max<std::int64_t>(0, outcome.genus)));
+  return std::max(0.0, off - static_cast<double>(outcome.genus_slack));
 }
 
 std::string ratio(double value, double unit) { return value > 0 && unit > 0 ? text("%.2f", value / unit) : ""; }
@@ -74,6 +75,8 @@ const std::vector<ContestColumn>& contest_columns() {
       {"non-manifold", of<&F::nonmanifold>, counted<&F::nonmanifold>},
       {"crossings", of<&F::crossings>, counted<&F::crossings>},
       {"outliers", of<&F::outliers>, counted<&F::outliers>},
+      {"missed %", of<&F::missed>,
+       [](Run r, Run, Outcome) { return r.figures.missed < 0 ? "" : text("%.1f", 100 * r.figures.missed); }, chance},
       {"to truth", of<&F::to_truth>, measured<&F::to_truth>, chance},
       {"from truth", of<&F::from_truth>, measured<&F::from_truth>, chance},
       {"edges", of<&F::edges>, measured<&F::edges>, chance},
@@ -103,20 +106,21 @@ bool is_ours(const ContestRun& run) { return run.name.starts_with(ourselves); }
 
 bool wins(const ContestColumn& column, const ContestRun& run, const ContestOutcome& outcome) {
   const ContestRun& ours = our_run(outcome);
-  if (is_ours(run)) return false;
+  constexpr double scrap = 0.1; // what misses so much of the samples, or of the truth, is better in nothing
+  if (is_ours(run) || std::max(run.figures.missed, run.figures.missing) > scrap) return false;
   const double theirs = column.badness(run, ours, outcome), own = column.badness(ours, ours, outcome);
   return theirs >= 0 && own >= 0 && theirs < (1 - column.margin) * own;
 }
 
-std::string fault(const ContestRun& run, const ContestOutcome& outcome, double undisturbed_volume) {
-  constexpr double most_missing = 0.01, most_volume = 0.05;
+std::string fault(const ContestRun& run, const ContestOutcome& outcome, double undisturbed_volume, double margin) {
+  constexpr double most_missing = 0.01;
   const ContestFigures& f = run.figures;
   if (!run.note.empty()) return run.note;
   if (f.boundary > 0) return "open";
   if (f.pieces != static_cast<double>(outcome.components)) return grouped_digits(f.pieces) + " pieces";
   if (genus_error(run, outcome) != 0) return "genus " + grouped_digits(f.genus);
   if (f.missing > most_missing) return text("%.0f", 100 * f.missing) + " % missing";
-  if (undisturbed_volume > 0 && std::abs(f.volume / undisturbed_volume - 1) > most_volume)
+  if (undisturbed_volume > 0 && std::abs(f.volume / undisturbed_volume - 1) > margin)
     return "volume " + text("%+.0f", 100 * (f.volume / undisturbed_volume - 1)) + " %";
   return {};
 }

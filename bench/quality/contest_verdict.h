@@ -32,7 +32,7 @@ const ContestRun& our_run(const ContestOutcome& outcome);
 bool is_ours(const ContestRun& run);
 
 /// What is wrong with a surface: not one closed piece of the true genus, more than 1 % of the truth missing, a volume
-/// 5 % off the one that the same method finds in the undisturbed cloud. Empty: it holds.
-std::string fault(const ContestRun& run, const ContestOutcome& outcome, double undisturbed_volume);
+/// that differs by more than that share from `undisturbed_volume` (0: not known). Empty: it holds.
+std::string fault(const ContestRun& run, const ContestOutcome& outcome, double undisturbed_volume, double margin);
 
 } // namespace eigencrust::bench

@@ -121,7 +121,7 @@ struct Html {
     text += "</tbody></table></div>\n";
   }
   void operator()(const Pictures& p) {
-    text += "<div class=\"pictures\">";
+    text += p.in_markdown ? "<div class=\"pictures\">" : "<div class=\"pictures small\">";
     for (const auto& [file, caption] : p.pictures) {
       const std::string content = content_of(file);
       text += "<figure>";
@@ -149,7 +149,9 @@ constexpr const char* style =
     ".wide{overflow-x:auto}table{border-collapse:collapse;font-size:13px;margin:.5em 0}"
     "th,td{padding:.2em .6em;text-align:right;border-bottom:1px solid #ddd;white-space:nowrap}"
     "th:first-child,td:first-child{text-align:left}thead th{border-bottom:2px solid #888}"
-    "tr.marked td:first-child{color:#a50}.pictures{display:flex;flex-wrap:wrap;gap:8px}figure{margin:0;max-width:100%}"
+    "tr.marked "
+    "td:first-child{color:#a50}.pictures{display:flex;flex-wrap:wrap;gap:8px}figure{margin:0;max-width:100%}.small "
+    "figure{width:200px}"
     "figure img{max-width:100%;height:auto;display:block}figcaption{font-size:12px;color:#555;text-align:center}"
     "code{background:#f3f3f3;padding:0 .2em}";
 

@@ -61,25 +61,32 @@ TEST(QualityVerdict, SmallerIsBetterButNotByChance) {
   EXPECT_TRUE(wins(column("to truth"), outcome.runs[2], outcome));
   EXPECT_FALSE(wins(column("edges"), outcome.runs[2], outcome)); // not known
   EXPECT_FALSE(wins(column("genus"), outcome.runs[0], outcome));
+  outcome.runs[1].figures.missed = 0.2; // a scrap
+  EXPECT_FALSE(wins(column("genus"), outcome.runs[1], outcome));
 }
 
 TEST(QualityVerdict, NamesTheFirstFault) {
   ContestOutcome outcome;
   outcome.genus = 0;
   ContestRun run = run_of("other", 0, 1);
-  EXPECT_EQ(fault(run, outcome, 10), "");
-  EXPECT_EQ(fault(run, outcome, 0), "");
-  EXPECT_EQ(fault(run, outcome, 9), "volume +11 %");
+  EXPECT_EQ(fault(run, outcome, 10, 0.05), "");
+  EXPECT_EQ(fault(run, outcome, 0, 0.05), "");
+  EXPECT_EQ(fault(run, outcome, 9, 0.05), "volume +11 %");
+  EXPECT_EQ(fault(run, outcome, 9, 0.2), "");
   run.figures.missing = 0.2;
-  EXPECT_EQ(fault(run, outcome, 10), "20 % missing");
+  EXPECT_EQ(fault(run, outcome, 10, 0.05), "20 % missing");
   run.figures.genus = 1234;
-  EXPECT_EQ(fault(run, outcome, 10), "genus 1,234");
+  EXPECT_EQ(fault(run, outcome, 10, 0.05), "genus 1,234");
+  outcome.genus_slack = 1233;
+  EXPECT_EQ(fault(run, outcome, 10, 0.05), "genus 1,234");
+  outcome.genus_slack = 1234;
+  EXPECT_EQ(fault(run, outcome, 10, 0.05), "20 % missing");
   run.figures.pieces = 3;
-  EXPECT_EQ(fault(run, outcome, 10), "3 pieces");
+  EXPECT_EQ(fault(run, outcome, 10, 0.05), "3 pieces");
   run.figures.boundary = 5;
-  EXPECT_EQ(fault(run, outcome, 10), "open");
+  EXPECT_EQ(fault(run, outcome, 10, 0.05), "open");
   run.note = "not installed";
-  EXPECT_EQ(fault(run, outcome, 10), "not installed");
+  EXPECT_EQ(fault(run, outcome, 10, 0.05), "not installed");
 }
 
 TEST(QualityScene, StraysAreThoseFarFromTheirEighthNeighbour) {
