@@ -32,9 +32,8 @@ constexpr const char* how_to_read =
 constexpr const char* how_to_mark =
     "**Bold**: better than `eigencrust` in that column (distances, time and memory by more than 2 %); a row with such "
     "a "
-    "cell, of another method or program, has a **★**. What misses more than a tenth of the samples or of the truth is "
-    "better in "
-    "nothing. An open surface has no inside: its genus counts holes as filled. "
+    "cell, of another method or program, has a **★**. What misses a tenth more of the samples, or of the truth, than "
+    "eigencrust does is better in nothing. An open surface has no inside: its genus counts holes as filled. "
     "In pictures the backs of triangles are red.";
 constexpr const char* parameters =
     "Parameters of the peers: Poisson (Open3D): normals of 30 neighbours, oriented along tangent planes, or by "

@@ -106,8 +106,11 @@ bool is_ours(const ContestRun& run) { return run.name.starts_with(ourselves); }
 
 bool wins(const ContestColumn& column, const ContestRun& run, const ContestOutcome& outcome) {
   const ContestRun& ours = our_run(outcome);
-  constexpr double scrap = 0.1; // what misses so much of the samples, or of the truth, is better in nothing
-  if (is_ours(run) || std::max(run.figures.missed, run.figures.missing) > scrap) return false;
+  constexpr double scrap = 0.1; // what misses so much more of the samples, or of the truth, is better in nothing
+  const ContestFigures &f = run.figures, &of_ours = ours.figures;
+  if (is_ours(run) || f.missed > scrap + std::max(0.0, of_ours.missed) ||
+      f.missing > scrap + std::max(0.0, of_ours.missing))
+    return false;
   const double theirs = column.badness(run, ours, outcome), own = column.badness(ours, ours, outcome);
   return theirs >= 0 && own >= 0 && theirs < (1 - column.margin) * own;
 }
