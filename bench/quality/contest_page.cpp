@@ -165,6 +165,17 @@ PageTable score_of(const std::vector<ContestOutcome>& outcomes) {
   return table;
 }
 
+/// The cases without an outcome, by name; empty: there are none.
+std::string left_out(const std::vector<ContestOutcome>& outcomes) {
+  std::string names;
+  for (const ContestCase& c : contest_cases()) {
+    const auto is_it = [&](const ContestOutcome& o) { return o.group == c.group && o.name == c.name; };
+    if (std::ranges::none_of(outcomes, is_it))
+      names.append(names.empty() ? "`" : ", `").append(c.group).append("/").append(c.name).append("`");
+  }
+  return names;
+}
+
 Blocks blocks_of(const std::vector<ContestOutcome>& outcomes, const PageFiles& files, bool everything) {
   Blocks blocks{Heading{1, "How good the meshes are, beside others"}, Paragraph{introduction}, Paragraph{how_to_read},
                 Paragraph{how_to_mark}, Paragraph{parameters}};
@@ -188,6 +199,10 @@ Blocks blocks_of(const std::vector<ContestOutcome>& outcomes, const PageFiles& f
       }
       add_pictures(*o, files, blocks);
     }
+  }
+  if (const std::string names = left_out(outcomes); !names.empty()) {
+    blocks.emplace_back(Heading{2, "Not run for this page"});
+    blocks.emplace_back(Paragraph{std::string(names).append(".")});
   }
   return blocks;
 }

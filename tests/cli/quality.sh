@@ -32,6 +32,8 @@ test_methods_on_one_small_cloud() {
   ! grep -qE '(src|href)="[^d]' page.html || die "the page loads something"
   [ -z "$(find work -name '*.ply' ! -name cloud.ply ! -name truth.ply)" ] || die "meshes are left behind"
 
+  grep -q '`fig9/hand+1200`' page.md || die "the page does not say what was not run"
+
   # What was run is not run again: the same page from what was kept.
   mv page.md first.md
   contest --python none --peers none --table page.md --pictures images
