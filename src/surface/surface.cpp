@@ -100,7 +100,9 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   run.stage("components",
             [&] { return filter_components(surface, options.components, t, model, labels.labels(), threads); });
   require_surface(surface, found);
-  if (options.components.kind == KeepComponents::Kind::supported) require_samples_near(surface, scene, threads);
+  // Who asks for all pieces may want a scrap; crusts keep all without being asked.
+  if (options.components.kind == KeepComponents::Kind::supported || options.method != Method::eigencrust)
+    require_samples_near(surface, scene, threads);
   describe(samples_apart(surface, scene, threads), run);
   const bool is_open = evidence.surroundings.kind == SceneKind::facade;
   const bool one_sided = is_open || evidence.one_sided.has_value();

@@ -85,6 +85,25 @@ TEST(Crusts, RobustCoconeKeepsTheOuterBoundaryOfNoise) {
     EXPECT_EQ(robust.mesh.vertices[v], noisy[static_cast<std::size_t>(attribute_value(*source, v))]);
 }
 
+// Strays all around hide the object from what walks in from outside: that is said, and no scrap of strays given out for
+// it.
+TEST(Crusts, NoScrapPassesForASurface) {
+  Points points = clouds::sphere(20'000);
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> place(-1.5, 1.5);
+  for (int i = 0; i < 600; ++i) points.push_back({place(random), place(random), place(random)});
+  for (const Method method : {Method::tight_cocone, Method::robust_cocone, Method::spectral_cocone}) {
+    SCOPED_TRACE(to_string(method));
+    try {
+      const MeshSummary m = by(method, points).report.mesh;
+      EXPECT_GT(m.volume, 0.5 * 4 * pi / 3); // found all the same
+      EXPECT_GT(m.vertices, 10'000u);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::no_surface);
+    }
+  }
+}
+
 TEST(Crusts, SameForAnyNumberOfThreads) {
   const Points points = clouds::jittered(clouds::sphere(1500), 0.03, 10);
   for (const Method method : all)
