@@ -27,7 +27,7 @@ TEST(QualityChild, IsStoppedWhenItsTimeIsUp) {
   EXPECT_LT(quiet.wall_seconds, 10);
   const ChildRun busy = run_child({"/bin/sh", "-c", "while :; do :; done"}, {.seconds = 100, .processor_seconds = 1});
   EXPECT_TRUE(busy.stopped);
-  EXPECT_NEAR(busy.user_seconds + busy.system_seconds, 1, 0.5);
+  EXPECT_LT(busy.user_seconds + busy.system_seconds, 5);
   const ChildRun early = run_child({"/bin/echo", "done"}, {.seconds = 20});
   EXPECT_FALSE(early.stopped);
   EXPECT_EQ(early.output, "done\n");
