@@ -25,10 +25,12 @@ constexpr const char* how_to_read =
     "no samples of the surface but lie on it, within one spacing; of raw scans, rows whose 8th neighbour is more than "
     "10 "
     "times as far as the median; *missed*: samples farther than 2 % of their box's diagonal from the surface. *to "
-    "truth*, *from truth*, *edges*: mean distances in spacings. *time* and *memory* "
-    "are of "
-    "the whole process, ours being 1 (of Open3D without the start of Python); the machine was busy with other work and "
-    "has 2 cores, so times are rough. A peer that needs more than 20 times our time is stopped.";
+    "truth*, *from truth*, *edges*: mean distances in spacings. *time*: "
+    "processor seconds of the whole process (of Open3D without the start of Python), *memory*: its peak, ours being 1; "
+    "the "
+    "machine had other work on its 2 cores, so they are rough. A peer that needs more than 20 times our time, and more "
+    "than "
+    "20 seconds, is stopped.";
 constexpr const char* how_to_mark =
     "**Bold**: better than `eigencrust` in that column (distances, time and memory by more than 2 %); a row with such "
     "a "
