@@ -35,7 +35,6 @@ struct ContestCase {
   std::function<Scene(Sources&)> make;
   std::filesystem::path as_it_is;
   std::optional<std::int64_t> genus; ///< of the object; none: that of the made scene, of a file not known
-  std::int64_t genus_slack = 0;      ///< so much more or less is right, too: the object touches itself
   RenderOptions view;
   bool crusts = true, peers = false, curves = false, pictures = true;
   /// Contestants whose surfaces are also put side by side in one picture; "cloud" is the cloud.

@@ -83,7 +83,6 @@ void run_contests(const ContestArguments& a, const std::string& itself) {
       outcomes.push_back(nlohmann::json::parse(known));
     else
       outcomes.push_back(run_contest(c, settings, [&](const ContestRun& run) { tell(c, run); }));
-    outcomes.back().genus_slack = c.genus_slack;
     if (!a.table.empty()) show(a, outcomes); // a run that is stopped leaves what it has
   }
   if (!a.list) show(a, outcomes);

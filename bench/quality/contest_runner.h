@@ -28,8 +28,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContestRun, name, peer, note, seconds, bytes,
 struct ContestOutcome {
   std::string group, name, description;
   std::size_t points = 0;
-  std::int64_t genus = -1;      ///< true one; -1: not known
-  std::int64_t genus_slack = 0; ///< of the case; not kept with the outcome
+  std::int64_t genus = -1; ///< true one; -1: not known
   std::uint32_t components = 1;
   double volume = 0; ///< true one; 0: not known
   std::vector<ContestRun> runs;

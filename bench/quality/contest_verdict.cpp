@@ -21,8 +21,7 @@ std::string length(double value) { return value < 0 ? "" : text("%.2f", value); 
 double genus_error(const ContestRun& run, const ContestOutcome& outcome) {
   if (run.figures.pieces < 0) return -1;
   if (run.figures.genus < 0) return 1e9; // a piece has no two sides
-  const double off = std::abs(run.figures.genus - static_cast<double>(std::max<std::int64_t>(0, outcome.genus)));
-  return std::max(0.0, off - static_cast<double>(outcome.genus_slack));
+  return std::abs(run.figures.genus - static_cast<double>(std::max<std::int64_t>(0, outcome.genus)));
 }
 
 std::string ratio(double value, double unit) { return value > 0 && unit > 0 ? text("%.2f", value / unit) : ""; }
