@@ -26,6 +26,7 @@ volatile std::sig_atomic_t committing = 0;
 volatile std::sig_atomic_t status_when_done = -1; ///< of the process, once its files are there
 timer_t deadline{};
 volatile std::sig_atomic_t has_deadline = 0;
+volatile std::sig_atomic_t has_run_out = 0; ///< operator new found no memory
 
 constexpr long patience_in_nanoseconds = 300'000'000;
 
@@ -47,19 +48,15 @@ void write_all(std::initializer_list<std::string_view> pieces) {
 
 [[noreturn]] void end_now() { end_with("cancelled (signal); start again to finish", ErrorKind::cancelled, "130"); }
 
-bool is_about_memory() {
-  try {
-    throw;
-  } catch (const std::bad_alloc&) {
-    return true;
-  } catch (...) {
-    return false;
-  }
+void on_no_memory() {
+  has_run_out = 1;
+  throw std::bad_alloc();
 }
 
-/// Where no exception may pass: destructors of the JSON library take memory, and so do tasks of other threads.
+/// Where no exception may pass: destructors of the JSON library take memory, and so do tasks of other threads and
+/// listings of folders. What was thrown cannot always be asked for here, so it is remembered whether memory ran out.
 [[noreturn]] void on_terminate() {
-  if (std::current_exception() != nullptr && is_about_memory())
+  if (has_run_out != 0)
     end_with(
         "memory is exhausted (memory); give fewer points or take a machine with more, info forecasts what is needed",
         ErrorKind::memory, "4");
@@ -97,6 +94,7 @@ bool is_ignored(int number) {
 
 void catch_interrupts() {
   std::set_terminate(on_terminate);
+  std::set_new_handler(on_no_memory);
   handle(SIGXFSZ, SIG_IGN);
   handle(SIGALRM, on_deadline);
   sigevent event{};
