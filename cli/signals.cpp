@@ -48,15 +48,25 @@ void write_all(std::initializer_list<std::string_view> pieces) {
 
 [[noreturn]] void end_now() { end_with("cancelled (signal); start again to finish", ErrorKind::cancelled, "130"); }
 
+bool is_about_memory() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return true;
+  } catch (...) {
+    return false;
+  }
+}
+
 void on_no_memory() {
   has_run_out = 1;
   throw std::bad_alloc();
 }
 
 /// Where no exception may pass: destructors of the JSON library take memory, and so do tasks of other threads and
-/// listings of folders. What was thrown cannot always be asked for here, so it is remembered whether memory ran out.
+/// listings of folders. Where what was thrown cannot be asked for, it is remembered whether memory ran out.
 [[noreturn]] void on_terminate() {
-  if (has_run_out != 0)
+  if (std::current_exception() != nullptr ? is_about_memory() : has_run_out != 0)
     end_with(
         "memory is exhausted (memory); give fewer points or take a machine with more, info forecasts what is needed",
         ErrorKind::memory, "4");

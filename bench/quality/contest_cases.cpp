@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contest_cases.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,6 +14,7 @@
 #include "degradations.h"
 #include "figures.h"
 #include "fit_scenes.h"
+#include "named_cases.h"
 #include "sampling.h"
 
 namespace eigencrust::bench {
@@ -323,16 +323,7 @@ std::vector<ContestCase> contest_cases() {
 
 std::vector<ContestCase> select_contest_cases(const std::string& words) {
   std::vector<ContestCase> cases = contest_cases();
-  const std::vector<std::string> wanted = words.empty() ? std::vector<std::string>{} : CLI::detail::split(words, ',');
-  const auto fits = [](const ContestCase& c, const std::string& word) {
-    return (c.group + "/" + c.name).find(word) != std::string::npos;
-  };
-  for (const std::string& word : wanted)
-    if (std::none_of(cases.begin(), cases.end(), [&](const ContestCase& c) { return fits(c, word); }))
-      throw Error(ErrorKind::usage, "--contest", "no case fits '" + word + "'", "see --list");
-  std::erase_if(cases, [&](const ContestCase& c) {
-    return !wanted.empty() && std::none_of(wanted.begin(), wanted.end(), [&](const auto& w) { return fits(c, w); });
-  });
+  keep_named({words}, "--contest", cases);
   return cases;
 }
 

@@ -2,10 +2,10 @@
 #include "cases.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include <eigencrust/error.h>
 
+#include "named_cases.h"
 #include "sampling.h"
 
 namespace eigencrust::bench {
@@ -27,22 +27,8 @@ std::vector<Case> all_cases() {
 }
 
 std::vector<Case> select_cases(std::vector<Case> cases, const std::vector<std::string>& patterns, bool quick) {
-  std::vector<std::string> wanted;
-  for (const std::string& list : patterns) {
-    std::istringstream stream(list);
-    for (std::string pattern; std::getline(stream, pattern, ',');)
-      if (!pattern.empty()) wanted.push_back(pattern);
-  }
-  const auto fits = [](const Case& c, const std::string& pattern) {
-    return (c.group + "/" + c.name).find(pattern) != std::string::npos;
-  };
-  for (const std::string& pattern : wanted)
-    if (std::none_of(cases.begin(), cases.end(), [&](const Case& c) { return fits(c, pattern); }))
-      throw Error(ErrorKind::usage, "--cases", "no case fits '" + pattern + "'", "see --list");
-  std::erase_if(cases, [&](const Case& c) {
-    const auto this_fits = [&](const std::string& pattern) { return fits(c, pattern); };
-    return (quick && c.large) || (!wanted.empty() && std::none_of(wanted.begin(), wanted.end(), this_fits));
-  });
+  keep_named(patterns, "--cases", cases);
+  std::erase_if(cases, [quick](const Case& c) { return quick && c.large; });
   return cases;
 }
 

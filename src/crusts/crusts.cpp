@@ -43,9 +43,8 @@ PointCloud outer_boundary(const PointCloud& cloud, const Context& context) {
   const Scene scene = make_scene(cloud, context);
   const auto kept = context.run.stage("outer_samples", [&] { return outer_samples(scene, context.threads); });
   // What is left is reconstructed as if it were all: a scrap of the cloud would pass for a whole.
-  constexpr double least_share = 0.05; // as surfaces must have of their samples
   const auto count = static_cast<std::size_t>(std::count(kept.raw().begin(), kept.raw().end(), 1));
-  if (static_cast<double>(count) < least_share * static_cast<double>(kept.size()))
+  if (static_cast<double>(count) < least_share_on_surface * static_cast<double>(kept.size()))
     throw Error(ErrorKind::no_surface, "outer_samples",
                 "only " + std::to_string(count) + " of " + std::to_string(kept.size()) +
                     " samples lie on the outer boundary of what is there",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/fit.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -121,41 +122,25 @@ std::vector<float> noise_at_vertices(const Surface& surface, const SurfaceFans& 
   return noise;
 }
 
-/// Symmetric.
-struct Matrix3 {
-  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  void add(double w, const Vec3& n) {
-    xx += w * n.x * n.x;
-    xy += w * n.x * n.y;
-    xz += w * n.x * n.z;
-    yy += w * n.y * n.y;
-    yz += w * n.y * n.z;
-    zz += w * n.z * n.z;
-  }
-  friend Vec3 operator*(const Matrix3& m, const Vec3& p) {
-    return {m.xx * p.x + m.xy * p.y + m.xz * p.z, m.xy * p.x + m.yy * p.y + m.yz * p.z,
-            m.xz * p.x + m.yz * p.y + m.zz * p.z};
-  }
-};
-
 /// From the mean of the ways to some planes the way to where they intersect, by least squares: to the edge between two.
 /// A direction that few of the planes lie across is stretched to twice its length at most; of three eigenvalues that
 /// add up to 1 the second is 1/2 at most, so that only the direction of the first is stretched less. Where the two are
 /// about the same that makes no difference, and else few steps of the power method find it.
-/// \param normals sum of w n nᵀ \param total sum of w \param normal a start
-Vec3 towards_all(const Vec3& mean, const Matrix3& normals, double total, const Vec3& normal) {
+/// \param normals mean of n nᵀ \param normal a start
+Vec3 towards_all(const Vec3& mean, const Eigen::Matrix3d& normals, const Vec3& normal) {
   constexpr int steps = 6;
   constexpr double most_stretched = 2;
-  Vec3 first = normal;
+  Eigen::Vector3d first(normal.x, normal.y, normal.z);
   double largest = 0;
   for (int step = 0; step < steps; ++step) {
-    first = (1 / total) * (normals * first);
-    largest = norm(first);
+    first = (normals * first).eval();
+    largest = first.norm();
     if (!(largest > 0)) return mean;
-    first = (1 / largest) * first;
+    first /= largest;
   }
+  const Vec3 direction{first[0], first[1], first[2]};
   return most_stretched * mean -
-         (most_stretched - 1 / std::max(largest, 1 / most_stretched)) * dot(first, mean) * first;
+         (most_stretched - 1 / std::max(largest, 1 / most_stretched)) * dot(direction, mean) * direction;
 }
 
 /// The middle of the noise, from fits at places spread over the surface.
@@ -283,7 +268,7 @@ class SurfaceFit {
           const std::uint32_t own = place_of[v];
           double total = 0, squares = 0, noise = 0, error = 0;
           Vec3 way, normal;
-          Matrix3 normals;
+          Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
           const double unit = std::max(noise_at(v), least_unit_in_spacings * spacing_at(v));
           const double radius = blend_reach * chosen_.width[own] * unit;
           const auto take = [&](std::uint32_t p) {
@@ -297,7 +282,8 @@ class SurfaceFit {
             // Along the normal of the fit: along another one what lies beside an edge would slide beyond it.
             const auto [ahead, across] = fit.foot(position_[v]);
             way = way + w * ahead * across;
-            normals.add(w, across);
+            const Eigen::Vector3d n(across.x, across.y, across.z);
+            normals += w * n * n.transpose();
             squares += w * ahead * ahead;
             noise += w * fit.noise_variance;
             error += w * fit.noise_variance * fit.variance;
@@ -314,7 +300,7 @@ class SurfaceFit {
           if (!(total > 0)) return;
           const Vec3 mean = (1 / total) * way;
           if (const double length = norm(normal); length > 0) normal_[v] = (1 / length) * normal;
-          position_[v] = position_[v] + towards_all(mean, normals, total, normal_[v]);
+          position_[v] = position_[v] + towards_all(mean, normals / total, normal_[v]);
           // How far the fits differ shows how far off they are where the shape is finer or sharper than them.
           const double apart = squares / total - squared_norm(mean);
           const double usual_here = usual_[clusters.ancestor(FitPlaces::level, own, coarse(clusters))],

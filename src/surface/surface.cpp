@@ -24,11 +24,10 @@ void require_surface(const Surface& surface, bool found) {
         "name which was seen, as --facade +z");
 }
 
-/// A scrap is no success: of so many samples some must lie on the surface, or as near as noise and spacing explain.
+/// \throws Error{no_surface} for a scrap, see least_share_on_surface
 void require_samples_near(const Surface& surface, const Scene& scene, const Threads& threads) {
-  constexpr double least_share = 0.05;
   const Tetrahedralization& t = scene.tetrahedralization;
-  const auto needed = static_cast<std::uint64_t>(std::ceil(least_share * t.sample_count));
+  const auto needed = static_cast<std::uint64_t>(std::ceil(least_share_on_surface * t.sample_count));
   if (surface.sample_of.size() >= needed) return;
   const TriangleTree tree(surface.mesh);
   const SampleModel& model = scene.measures.model;

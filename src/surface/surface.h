@@ -10,6 +10,9 @@
 
 namespace eigencrust {
 
+/// A scrap is no success: of so many samples some must lie on the surface, or as near as noise and spacing explain.
+constexpr double least_share_on_surface = 0.05;
+
 /// Samples that the surface leaves alone though neither noise nor loneliness explains it.
 struct SamplesApart {
   std::uint64_t apart = 0, all = 0;
