@@ -43,7 +43,7 @@ void reconstruct_spectral(const PointCloud& cloud, const Context& context, Resul
   scene.poles = {};
   // §3.6: smoothing; the vertices get back what the input said of them
   auto mesh = finish(std::move(surface), cloud, scene, context);
-  check(mesh, cloud, scene, {.threads = context.options.threads}, context);
+  check(mesh, cloud, scene, {}, context);
 
   result.mesh = std::move(mesh);
   result.tetrahedralization = std::move(scene.tetrahedralization);
@@ -60,7 +60,7 @@ Result reconstruct(const PointCloud& cloud, const Options& options, Observer& ob
   Result result;
   result.report.options = options;
   Run run(result.report, observer);
-  const Threads threads(options.threads);
+  const Threads threads(options.threads, run.cancellation());
   if (options.method == Method::eigencrust)
     reconstruct_spectral(cloud, {options, run, threads}, result);
   else

@@ -26,14 +26,14 @@ Options without_points(Options options) {
 
 /// What does not hang on the points that are named: the scene, the pole graph and its solution.
 struct Session::Kept {
-  Kept(PointCloud points, const Options& all, Observer& observer)
-      : cloud(std::move(points)), options(all), threads(all.threads) {
+  Kept(PointCloud points, const Options& all, Observer& observer) : cloud(std::move(points)), options(all) {
     check_options(options);
     check_cloud(cloud);
     check_memory(cloud, options.max_memory);
     report.options = options;
     const Options unnamed = without_points(options);
     Run run(report, observer);
+    const Threads threads(options.threads, run.cancellation());
     const Context context{unnamed, run, threads};
     scene = make_scene(cloud, context);
     EIGENCRUST_SOUND(scene, cloud);
@@ -42,7 +42,7 @@ struct Session::Kept {
     solved = solve_poles(scene, evidence, context);
     EIGENCRUST_SOUND(solved.graph.graph);
     report.stages.clear();
-    measure_sides();
+    measure_sides(threads);
     node_of =
         IndexedArray<TetrahedronIndex, std::uint32_t>(scene.tetrahedralization.tetrahedra.size(), NodeIndex::none);
     for (PoleIndex p{0}; p.value < solved.graph.node.size(); ++p.value)
@@ -66,7 +66,6 @@ struct Session::Kept {
 
   PointCloud cloud;
   Options options;
-  Threads threads;
   Report report;
   Scene scene;
   Evidence evidence;
@@ -75,7 +74,7 @@ struct Session::Kept {
   IndexedArray<TetrahedronIndex, std::uint32_t> node_of;
 
  private:
-  void measure_sides() {
+  void measure_sides(const Threads& threads) {
     const PoleLabels labels = label_poles(scene.tetrahedralization, scene.poles, solved.graph, solved.partition,
                                           solved.component, evidence.labels, options.global_sign, threads);
     const auto& supers = solved.partition.supernode_value;
@@ -103,7 +102,8 @@ Result Session::label(std::span<const Vec3> outside_points, std::span<const Vec3
   options.inside_points.insert(options.inside_points.end(), inside_points.begin(), inside_points.end());
   check_options(options);
   Run run(result.report, observer);
-  const Context context{options, run, kept_->threads};
+  const Threads threads(options.threads, run.cancellation());
+  const Context context{options, run, threads};
 
   Evidence evidence;
   Partition first;
@@ -122,8 +122,7 @@ Result Session::label(std::span<const Vec3> outside_points, std::span<const Vec3
   EIGENCRUST_SOUND(surface, scene, labels, options);
   auto points = point_results(scene, surface, context);
   result.mesh = finish(std::move(surface), cloud, scene, context);
-  check(result.mesh, cloud, scene, {.self_intersections = result.report.moved.has_value(), .threads = options.threads},
-        context);
+  check(result.mesh, cloud, scene, {.self_intersections = result.report.moved.has_value()}, context);
 
   run.end();
   result.labels = std::move(labels).labels();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <type_traits>
 
@@ -13,7 +14,9 @@ namespace eigencrust {
 class Threads {
  public:
   /// \param count number of threads including the caller's; 0: one per core. There are never more than cores
-  explicit Threads(unsigned count = 0);
+  /// \param check called before each block by the thread that takes it, so from several at once; throws where the
+  /// work is to end, for example because it was cancelled
+  explicit Threads(unsigned count = 0, std::function<void()> check = {});
   ~Threads();
   Threads(const Threads&) = delete;
   Threads& operator=(const Threads&) = delete;

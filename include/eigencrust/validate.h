@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include <eigencrust/threads.h>
 #include <eigencrust/types.h>
 
 namespace eigencrust {
@@ -64,6 +65,8 @@ struct MeshSummary {
 
 /// \throws Error{input} when a triangle names a vertex that does not exist or a vertex is not finite.
 MeshSummary validate(const TriangleMesh& mesh, const ValidateOptions& options = {});
+/// The same on threads that are there, whatever options.threads is.
+MeshSummary validate(const TriangleMesh& mesh, const ValidateOptions& options, const Threads& threads);
 
 /// Vertices with equal coordinates made one (the first), order kept; triangles with two equal
 /// corners then stay in place, so that triangle attributes still fit.

@@ -66,10 +66,11 @@ class Inner {
     watch_.stage_begins(stage);
   }
   template <class Work>
-  auto run(Work&& work) {
+  auto run(unsigned count, Work&& work) {
     return watch_.run([&] {
       throw_if_cancelled(watch_, stage_);
-      return work([this](double fraction) {
+      const Threads threads(count, [this] { throw_if_cancelled(watch_, stage_); });
+      return work(threads, [this](double fraction) {
         watch_.progress(fraction);
         throw_if_cancelled(watch_, stage_);
       });
@@ -241,10 +242,10 @@ void bind_partition(py::module_& m) {
       [](const PoleGraph& graph, const Options& options, bool reduce, unsigned threads, const py::object& progress,
          const py::object& cancel) {
         Inner inner(progress, cancel, "partition_poles");
-        return inner.run([&](const Checkpoint& checkpoint) {
+        return inner.run(threads, [&](const Threads& team, const Checkpoint& checkpoint) {
           auto solved = std::make_shared<SolvedPartition>();
           static_cast<Partition&>(*solved) =
-              partition_poles(graph, options.solver, reduce, Threads(threads), &solved->component, checkpoint);
+              partition_poles(graph, options.solver, reduce, team, &solved->component, checkpoint);
           return solved;
         });
       },
@@ -301,10 +302,9 @@ void bind_second_stage(py::module_& m) {
           throw Error(ErrorKind::usage, "method", "the cut has no partition of this graph",
                       "use harmonic or eigenvector");
         Inner inner(progress, cancel, "partition_tetrahedra");
-        return inner.run([&](const Checkpoint& checkpoint) {
+        return inner.run(threads, [&](const Threads& team, const Checkpoint& checkpoint) {
           auto solved = std::make_shared<SolvedPartition>();
-          static_cast<Partition&>(*solved) =
-              partition_tetrahedra(graph.graph, stage, options.solver, Threads(threads), checkpoint);
+          static_cast<Partition&>(*solved) = partition_tetrahedra(graph.graph, stage, options.solver, team, checkpoint);
           return solved;
         });
       },
@@ -342,9 +342,9 @@ void bind_surface(py::module_& m) {
         require(labels.size() == t.tetrahedra.size(), "labels", "tetrahedralization");
         const Labels fixed = to_labels(known, "known", t);
         Inner inner(progress, cancel, "make_manifold");
-        return inner.run([&](const Checkpoint& checkpoint) {
+        return inner.run(threads, [&](const Threads& team, const Checkpoint& checkpoint) {
           auto changed = std::make_shared<TetrahedronLabels>(labels);
-          const ManifoldCounts counts = make_manifold(t, stars, poles, fixed, *changed, Threads(threads), checkpoint);
+          const ManifoldCounts counts = make_manifold(t, stars, poles, fixed, *changed, team, checkpoint);
           return std::pair(changed, counts);
         });
       },

@@ -33,7 +33,7 @@ void reconstruct_tight_cocone(const PointCloud& cloud, const Context& context, R
   const IndexedArray<TetrahedronIndex, float> sure(labels.size(), 1.0f);
   Surface surface = make_surface(cloud, scene, evidence, {labels, sure}, context);
   result.mesh = finish(std::move(surface), cloud, scene, context);
-  check(result.mesh, cloud, scene, {.threads = context.options.threads}, context);
+  check(result.mesh, cloud, scene, {}, context);
   result.tetrahedralization = std::move(scene.tetrahedralization);
   result.labels = std::move(labels);
 }
@@ -86,8 +86,7 @@ void reconstruct_power_crust(const PointCloud& cloud, const Context& context, Re
   for (Vec3& v : result.mesh.vertices) v = v + scene.tetrahedralization.origin;
   // The corners of its polygons are no samples: nothing is said of crossings, and many of them coincide.
   run.stage("validate", [&] {
-    return validate(result.mesh,
-                    {.self_intersections = false, .merge_equal_vertices = false, .threads = options.threads});
+    return validate(result.mesh, {.self_intersections = false, .merge_equal_vertices = false}, threads);
   });
   result.labels = Labels(scene.tetrahedralization.tetrahedra.size());
   for (PoleIndex p{0}; p.value < side.size(); ++p.value) result.labels[scene.poles.tetrahedron[p]] = side[p];

@@ -228,12 +228,15 @@ std::uint64_t count_unreferenced(const MergedTriangles& merged) {
 } // namespace
 
 MeshSummary validate(const TriangleMesh& mesh, const ValidateOptions& options) {
+  return validate(mesh, options, Threads(options.threads));
+}
+
+MeshSummary validate(const TriangleMesh& mesh, const ValidateOptions& options, const Threads& threads) {
   require_valid_indices(mesh, "validate");
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
     if (!is_finite(mesh.vertices[v]))
       throw Error(ErrorKind::input, "validate", "vertex " + std::to_string(v) + " is not finite", "repair the mesh");
 
-  const Threads threads(options.threads);
   MeshSummary summary;
   const MergedTriangles merged = merged_triangles(mesh, options.merge_equal_vertices);
   summary.triangles = merged.all.size();

@@ -5,13 +5,16 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <atomic>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <new>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <eigencrust/error.h>
@@ -44,14 +47,19 @@ class FirstError {
 /// have no order.
 class Blocks {
  public:
-  Blocks(void (*call)(void*, std::size_t), void* function) : call_(call), function_(function) { begun_.give(); }
+  Blocks(void (*call)(void*, std::size_t), void* function, const std::function<void()>& check)
+      : call_(call), function_(function), check_(check) {
+    begun_.give();
+  }
 
   void take(std::size_t block) {
     begun_.take();
-    try {
-      call_(function_, block);
-    } catch (...) {
-      error_.take(block); // the other blocks go on: which of several exceptions is seen must not depend on time
+    if (!stopped_ && goes_on(block)) {
+      try {
+        call_(function_, block);
+      } catch (...) {
+        error_.take(block); // the other blocks go on: which of several exceptions is seen must not depend on time
+      }
     }
     ended_.give();
   }
@@ -62,8 +70,21 @@ class Blocks {
   }
 
  private:
+  bool goes_on(std::size_t block) {
+    try {
+      if (check_) check_();
+      return true;
+    } catch (...) {
+      error_.take(block);
+      stopped_ = true;
+      return false;
+    }
+  }
+
   void (*call_)(void*, std::size_t);
   void* function_;
+  const std::function<void()>& check_;
+  std::atomic<bool> stopped_ = false; ///< by the check, which may depend on time
   HandOver begun_, ended_;
   FirstError error_;
 };
@@ -93,28 +114,33 @@ unsigned available_threads(unsigned wanted) {
 } // namespace
 
 struct Threads::Impl {
+  std::function<void()> check;
   unsigned count;
   unsigned running; ///< never more than cores, of which the library would complain on stderr
   tbb::task_arena arena;
 
-  Impl(unsigned n, unsigned cores)
-      : count(n > 0 ? n : cores),
+  Impl(unsigned n, unsigned cores, std::function<void()> before_each)
+      : check(std::move(before_each)),
+        count(n > 0 ? n : cores),
         running(1 + available_threads(std::min(count, cores) - 1)),
         arena(static_cast<int>(running)) {}
 };
 
-Threads::Threads(unsigned count)
-    : impl_(std::make_unique<Impl>(count, static_cast<unsigned>(tbb::info::default_concurrency()))) {}
+Threads::Threads(unsigned count, std::function<void()> check)
+    : impl_(std::make_unique<Impl>(count, static_cast<unsigned>(tbb::info::default_concurrency()), std::move(check))) {}
 Threads::~Threads() = default;
 
 unsigned Threads::size() const { return impl_->count; }
 
 void Threads::run_erased(std::size_t blocks, void (*call)(void*, std::size_t), void* function) const {
   if (impl_->running == 1 || blocks <= 1) {
-    for (std::size_t b = 0; b < blocks; ++b) call(function, b);
+    for (std::size_t b = 0; b < blocks; ++b) {
+      if (impl_->check) impl_->check();
+      call(function, b);
+    }
     return;
   }
-  Blocks all(call, function);
+  Blocks all(call, function, impl_->check);
   // Isolated: who waits for these blocks takes no others, which may be long or use the same tables.
   impl_->arena.execute([&] {
     tbb::this_task_arena::isolate(

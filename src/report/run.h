@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <functional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -70,9 +71,11 @@ class Run {
     };
   }
 
-  /// For another thread than the caller's: throws when cancelled, and tells of no progress.
-  std::function<void()> cancellation(std::string stage) {
-    return [this, name = std::move(stage)] { throw_if_cancelled(observer_, name); };
+  /// For other threads than the caller's too, while the stage runs: throws when cancelled, and tells of no progress.
+  std::function<void()> cancellation() {
+    return [this] {
+      if (!report_.stages.empty()) throw_if_cancelled(observer_, report_.stages.back().name);
+    };
   }
 
   Report& report() { return report_; }

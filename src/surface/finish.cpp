@@ -193,7 +193,7 @@ void check(const TriangleMesh& mesh, const PointCloud& cloud, const Scene& scene
     ValidateOptions needed = checks;
     needed.self_intersections = checks.self_intersections && !cannot_cross;
     needed.merge_equal_vertices = checks.merge_equal_vertices && !cannot_cross; // samples differ, so vertices do
-    MeshSummary summary = validate(mesh, needed);
+    MeshSummary summary = validate(mesh, needed, threads);
     if (cannot_cross) summary.self_intersections = 0;
     return summary;
   });

@@ -21,7 +21,7 @@ double seconds_of(const std::function<void()>& work) {
 /// Ends the triangulation when the run is cancelled, or when what grows would take more memory than is allowed. The
 /// observer hears of progress from the caller's thread alone.
 WatchGrowth watch_of(const PointCloud& cloud, const Context& context) {
-  return [cancelled = context.run.cancellation("delaunay"), checkpoint = context.run.checkpoint(),
+  return [cancelled = context.run.cancellation(), checkpoint = context.run.checkpoint(),
           caller = std::this_thread::get_id(), limit = context.options.max_memory,
           further = further_bytes(cloud)](double fraction, std::uint64_t tetrahedra) {
     if (std::this_thread::get_id() == caller)

@@ -4,6 +4,7 @@
 #include <eigencrust/io.h>
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <limits>
 
 #include "clouds.h"
@@ -80,7 +81,8 @@ class Recorder : public Observer {
  public:
   std::vector<std::string> begun, ended;
   std::vector<std::string> faults;
-  std::size_t questions = 0, stop_at = std::numeric_limits<std::size_t>::max();
+  std::atomic<std::size_t> questions = 0; // worker threads ask too
+  std::size_t stop_at = std::numeric_limits<std::size_t>::max();
   std::string stop_from;
 
   void stage_begins(std::string_view stage) override {
@@ -127,19 +129,25 @@ TEST(Observers, SeeEveryStageBeginAndEndAndProgressGoForward) {
 
 TEST(Observers, MayStopAtEveryQuestion) {
   const PointCloud cloud = clouds::cloud_of(clouds::jittered(clouds::sphere(400), 0.05, 3));
-  Recorder whole;
-  reconstruct(cloud, {}, whole);
-  ASSERT_GT(whole.questions, 10u);
-  for (std::size_t k = 0; k < whole.questions; ++k) {
-    Recorder recorder;
-    recorder.stop_at = k;
-    try {
-      reconstruct(cloud, {}, recorder);
-      ADD_FAILURE() << "went on after question " << k;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::cancelled);
-      EXPECT_EQ(recorder.questions, k + 1);
-      EXPECT_EQ(recorder.begun, recorder.ended); // a stage that is broken off ends all the same
+  Options options;
+  options.smooth = 1;
+  for (const unsigned threads : {1u, 4u}) {
+    options.threads = threads;
+    Recorder whole;
+    reconstruct(cloud, options, whole);
+    ASSERT_GT(whole.questions, 100u); // every loop asks
+    const std::size_t step = threads == 1 ? 1 : 7;
+    for (std::size_t k = 0; k < whole.questions; k += step) {
+      Recorder recorder;
+      recorder.stop_at = k;
+      try {
+        reconstruct(cloud, options, recorder);
+        ADD_FAILURE() << "went on after question " << k;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::cancelled);
+        EXPECT_LE(recorder.questions, k + threads);
+        EXPECT_EQ(recorder.begun, recorder.ended); // a stage that is broken off ends all the same
+      }
     }
   }
 }

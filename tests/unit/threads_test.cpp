@@ -50,6 +50,28 @@ TEST(Threads, TheSmallestBlocksExceptionIsRethrownAndTheTeamGoesOn) {
   }
 }
 
+TEST(Threads, TheCheckComesBeforeEachBlockAndMayEndTheWork) {
+  for (const unsigned count : {1u, 2u, 4u}) {
+    std::atomic<int> asked{0}, most{1000};
+    const Threads threads(count, [&] {
+      if (++asked > most) throw std::runtime_error("enough");
+    });
+    std::atomic<int> runs{0};
+    threads.run(100, [&](std::size_t) { ++runs; });
+    EXPECT_EQ(asked, 100);
+    EXPECT_EQ(runs, 100);
+    asked = runs = 0;
+    most = 5;
+    EXPECT_THROW(threads.run(10000, [&](std::size_t) { ++runs; }), std::runtime_error);
+    EXPECT_EQ(runs, 5);
+    EXPECT_LE(asked, 5 + static_cast<int>(count)) << "asked on after the work was over";
+    asked = runs = 0;
+    const auto inner = [&](std::size_t) { threads.run(10, [&](std::size_t) { ++runs; }); };
+    EXPECT_THROW(threads.run(10, inner), std::runtime_error);
+    EXPECT_LE(runs, 5);
+  }
+}
+
 TEST(Threads, BlocksMayRunBlocksOfTheirOwn) {
   for (const unsigned count : {1u, 2u, 4u}) {
     const Threads threads(count);
