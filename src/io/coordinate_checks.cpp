@@ -77,8 +77,8 @@ Steps find_steps(const std::vector<Vec3>& points, Axis axis, double low, double 
   if (step < matters * (high - low) / std::sqrt(n)) return {};
   std::vector<bool> used(static_cast<std::size_t>((high - low) / step) + 2);
   for (const Vec3& p : points) {
+    if (!is_finite(p)) continue; // the extent is that of the others
     const double place = (p.*axis - low) / step;
-    if (!std::isfinite(p.*axis)) continue;
     if (place != std::floor(place) || static_cast<double>(static_cast<float>(p.*axis)) != p.*axis) return {};
     used[static_cast<std::size_t>(place)] = true;
   }
@@ -92,10 +92,11 @@ Steps find_steps(const std::vector<Vec3>& points, Axis axis, double low, double 
 /// Is the axis, too, on a raster of that step?
 bool lies_on_raster(const std::vector<Vec3>& points, Axis axis, double step) {
   double low = std::numeric_limits<double>::infinity();
-  for (const Vec3& p : points) low = std::fmin(low, p.*axis);
+  for (const Vec3& p : points)
+    if (is_finite(p)) low = std::min(low, p.*axis);
   return std::all_of(points.begin(), points.end(), [&](const Vec3& p) {
     const double place = (p.*axis - low) / step;
-    return !std::isfinite(place) || place == std::floor(place);
+    return !is_finite(p) || place == std::floor(place);
   });
 }
 

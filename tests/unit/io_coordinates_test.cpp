@@ -68,6 +68,10 @@ TEST_F(IoCoordinates, StepsOf32Bits) {
   ASSERT_THAT(notes_.warnings, SizeIs(1));
   EXPECT_THAT(notes_.warnings[0], HasSubstr("y takes only 41 values, steps of 0.5"));
   EXPECT_THAT(notes_.warnings[0], HasSubstr("exported in 32 bits"));
+  // What is left out says nothing, wherever it would be.
+  points.push_back({400000, std::nan(""), 345});
+  read(points);
+  EXPECT_THAT(notes_.warnings, ElementsAre(HasSubstr("y takes only 41 values")));
   // The same in 64 bits, the same near 0, and heights on a raster of half a metre are fine.
   read(sheet(80, 0.25, {432100, 5480200, 345}));
   EXPECT_THAT(notes_.warnings, IsEmpty());
