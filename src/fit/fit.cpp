@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <eigencrust/validate.h>
 
@@ -16,14 +17,17 @@
 namespace eigencrust {
 namespace {
 
-// Noise below that share of the spacing cannot be told from curvature: clean statues read as 0.09 in places.
-constexpr float least_noise_in_spacings = 0.1f;
-constexpr double least_share_of_piece = 0.1;
+// Noise of less than 0.1 spacings cannot be told from curvature at one place: clean statues read as 0.09 in places. But
+// noise is everywhere: a quarter of the vertices of clean shapes read as none, of noise of 0.1 spacings as 0.04 or
+// more.
+constexpr float much_noise_in_spacings = 0.1f, some_noise_in_spacings = 0.03f;
+constexpr double share_with_much = 0.1, share_with_some = 0.75;
 // Tips and edges read as free of noise, for they have no flat neighbourhood; they are about that many edges wide.
 constexpr int edges_around = 10;
 
 // Steps of smoothing before the first fit, and of the areas around that its normals are summed over.
 constexpr int smoothing_steps = 5;
+constexpr double tangling_noise_in_spacings = 0.5;
 constexpr int normal_steps = 10;
 // The second fits start from the places and normals of the first, which may be coarse; a third takes off nothing any
 // more.
@@ -42,11 +46,13 @@ constexpr std::size_t levels_of_usual_noise = 3;
 constexpr double quartile = 0.25;
 // Of noise alone, measured by narrow fits with six degrees of freedom, it is so much of the mean (chi-squared).
 constexpr double quartile_of_noise = 0.58;
-// What fits to clean samples leave of their shape.
-constexpr double curvature_in_spacings = 0.05;
+// What fits to clean samples leave of their shape, in spacings: where noise was measured, and where it was not.
+constexpr double shape_left_beside_noise = 0.03, shape_left = 0.05;
 
 /// Laplacian steps, in which vertices may come to lie on one another: nothing but a start. Rims stay.
-std::vector<Vec3> smoothed(std::vector<Vec3> vertices, const SurfaceFans& fans, const Threads& threads) {
+/// \param share of each vertex: how far it goes towards the middle of its neighbours, in [0, 1]
+std::vector<Vec3> smoothed(std::vector<Vec3> vertices, const SurfaceFans& fans, std::span<const double> share,
+                           const Threads& threads) {
   std::vector<Vec3> next(vertices.size());
   const std::vector<std::uint8_t> at_rim = fans.rim_vertices(threads);
   for (int step = 0; step < smoothing_steps; ++step) {
@@ -55,7 +61,7 @@ std::vector<Vec3> smoothed(std::vector<Vec3> vertices, const SurfaceFans& fans, 
       if (at_rim[v]) return;
       Vec3 sum;
       for (const auto& wing : fans[v]) sum = sum + (vertices[wing.next] - vertices[v]);
-      next[v] = vertices[v] + (1 / static_cast<double>(fans[v].size())) * sum;
+      next[v] = vertices[v] + (share[v] / static_cast<double>(fans[v].size())) * sum;
     });
     vertices.swap(next);
   }
@@ -87,29 +93,57 @@ Vec3 limited(const Vec3& from, const Vec3& to, double farthest) {
   return length > farthest ? from + (farthest / length) * (to - from) : to;
 }
 
+/// Does the model read more noise at the vertex than that many spacings?
+bool reads_more(const Surface& surface, const SampleModel& model, std::size_t v, float spacings) {
+  const SampleIndex s = surface.sample_of[v];
+  return model.noise[s] > spacings * model.spacing[s];
+}
+
+/// Which pieces are noisy, by the samples' readings at their vertices: much in a part of the piece, or some nearly
+/// everywhere, for curvature is read as noise only in places.
+class NoisyPieces {
+ public:
+  NoisyPieces(const Surface& surface, const SampleModel& model, const Threads& threads)
+      : piece_(surface.mesh.vertices.size(), 0) {
+    const std::vector<std::uint32_t> piece_of = triangle_components(surface.mesh, threads.size());
+    for (std::size_t i = 0; i < piece_of.size(); ++i)
+      for (const std::uint32_t v : surface.mesh.triangles[i]) piece_[v] = piece_of[i];
+    struct Counts {
+      std::uint32_t all = 0, some = 0, much = 0;
+    };
+    std::vector<Counts> counts(piece_of.size());
+    for (std::size_t v = 0; v < piece_.size(); ++v) {
+      Counts& here = counts[piece_[v]];
+      ++here.all;
+      here.some += reads_more(surface, model, v, some_noise_in_spacings);
+      here.much += reads_more(surface, model, v, much_noise_in_spacings);
+    }
+    for (const Counts& c : counts)
+      least_.push_back(c.some > share_with_some * c.all   ? some_noise_in_spacings
+                       : c.much > share_with_much * c.all ? much_noise_in_spacings
+                                                          : std::numeric_limits<float>::infinity());
+  }
+
+  /// In spacings; less is none.
+  [[nodiscard]] float least_noise(std::size_t v) const { return least_[piece_[v]]; }
+
+ private:
+  std::vector<std::uint32_t> piece_; ///< of each vertex
+  std::vector<float> least_;         ///< of each piece
+};
+
 std::vector<float> noise_at_vertices(const Surface& surface, const SurfaceFans& fans, const SampleModel& model,
                                      const Threads& threads) {
   const std::size_t n = surface.mesh.vertices.size();
   std::vector<float> noise(n, 0);
+  std::size_t quiet = 0;
+  while (quiet < n && !reads_more(surface, model, quiet, some_noise_in_spacings)) ++quiet;
+  if (quiet == n) return noise;
+  const NoisyPieces pieces(surface, model, threads);
   for_each_index(threads, n, [&](std::size_t v) {
-    const SampleIndex s = surface.sample_of[v];
-    if (model.noise[s] > least_noise_in_spacings * model.spacing[s]) noise[v] = model.noise[s];
+    if (reads_more(surface, model, v, pieces.least_noise(v))) noise[v] = model.noise[surface.sample_of[v]];
   });
-  const auto some = [&noise] { return std::any_of(noise.begin(), noise.end(), [](float s) { return s > 0; }); };
-  if (!some()) return noise;
-  std::vector<std::uint32_t> piece(n, 0);
-  const std::vector<std::uint32_t> piece_of = triangle_components(surface.mesh, threads.size());
-  for (std::size_t i = 0; i < piece_of.size(); ++i)
-    for (const std::uint32_t v : surface.mesh.triangles[i]) piece[v] = piece_of[i];
-  std::vector<std::uint32_t> all(piece_of.size(), 0), with_noise(piece_of.size(), 0);
-  for (std::size_t v = 0; v < n; ++v) {
-    ++all[piece[v]];
-    with_noise[piece[v]] += noise[v] > 0;
-  }
-  for (std::size_t v = 0; v < n; ++v)
-    if (static_cast<double>(with_noise[piece[v]]) < least_share_of_piece * static_cast<double>(all[piece[v]]))
-      noise[v] = 0;
-  if (!some()) return noise;
+  if (std::none_of(noise.begin(), noise.end(), [](float s) { return s > 0; })) return noise;
   std::vector<float> next(n);
   for (int edge = 0; edge < edges_around; ++edge) {
     for_each_index(threads, n, [&](std::size_t v) {
@@ -154,7 +188,7 @@ class SurfaceFit {
         noise_(noise),
         threads_(threads),
         fans_(fans),
-        position_(smoothed(surface.mesh.vertices, fans, threads)),
+        position_(smoothed(surface.mesh.vertices, fans, shares_of_steps(), threads)),
         normal_(averaged_normals(position_, fans, threads)),
         trust_(position_.size(), 0),
         sigma_(position_.size(), 0) {
@@ -181,6 +215,14 @@ class SurfaceFit {
   }
 
  private:
+  /// Of the way to the middle of its neighbours that each vertex goes in a step of the start: all of it where noise
+  /// tangles the triangles, little where samples already lie side by side, for there they would only slide.
+  [[nodiscard]] std::vector<double> shares_of_steps() const {
+    std::vector<double> share(surface_.mesh.vertices.size());
+    for (std::size_t v = 0; v < share.size(); ++v)
+      share[v] = std::min(1.0, noise_at(v) / (tangling_noise_in_spacings * spacing_at(v)));
+    return share;
+  }
   [[nodiscard]] double spacing_at(std::size_t v) const {
     return static_cast<double>(model_.spacing[surface_.sample_of[v]]);
   }
@@ -304,8 +346,8 @@ class SurfaceFit {
           // How far the fits differ shows how far off they are where the shape is finer or sharper than them.
           const double apart = squares / total - squared_norm(mean);
           const double usual_here = usual_[clusters.ancestor(FitPlaces::level, own, coarse(clusters))],
-                       curvature = curvature_in_spacings * spacing_at(v);
-          const double variance = std::min(noise / total, usual_here * usual_here) - curvature * curvature;
+                       shape = (noise_[v] > 0 ? shape_left_beside_noise : shape_left) * spacing_at(v);
+          const double variance = std::min(noise / total, usual_here * usual_here) - shape * shape;
           sigma_[v] = std::sqrt(std::max(0.0, variance));
           trust_[v] = variance > 0 ? variance / (variance + std::max(0.0, apart - error / total)) : 0;
         },

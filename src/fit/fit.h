@@ -16,9 +16,9 @@ namespace eigencrust {
 
 /// The noise at each vertex of the surface that is to be fitted, negative at those that stay; empty: all stay.
 /// \param fans of the surface \param kind samples: all stay; fitted: none; automatic: those without noise. There is
-/// some where it is more than a
-///        tenth of the spacing, in pieces of which a tenth of the vertices have as much (less, or in single places, is
-///        curvature mistaken for noise), and ten edges around, for thin parts read as free of it.
+///        some where it is more than 0.03 spacings at three vertices of four of the piece (curvature is mistaken for
+///        noise only in places), or more than 0.1 spacings at one of ten, and ten edges around, for thin parts read as
+///        free of it.
 std::vector<float> noise_to_fit(const Surface& surface, const SurfaceFans& fans, const SampleModel& model,
                                 SurfaceKind kind, const Threads& threads);
 

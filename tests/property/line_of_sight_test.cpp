@@ -185,7 +185,9 @@ TEST(LineOfSight, RawBunnyWithItsViewsHasNoHandle) {
 TEST(LineOfSight, BundledTeapotHasNoFinBehindItsSpout) {
   const PointCloud cloud = read_point_cloud(source_folder() / "examples" / "teapot_scan.ply");
   ASSERT_FALSE(cloud.sensors.empty());
-  const Result result = reconstruct(cloud);
+  Options options;
+  options.surface = SurfaceKind::samples;
+  const Result result = reconstruct(cloud, options);
   expect_sound(result);
   EXPECT_EQ(result.report.mesh.components, 1u);
   EXPECT_EQ(result.report.mesh.genus, 1); // the handle

@@ -92,7 +92,7 @@ TEST(LocalQuadric, NoiseInAllDirectionsSagsOnASphereAndThatIsAllowedFor) {
 
 TEST(FittedSurface, VerticesGoToTheMiddleOfTheNoiseAndKeepWhatIsSaidOfThem) {
   const std::size_t n = 6000;
-  for (const double sigma : {0.25, 0.5, 1.0}) {
+  for (const double sigma : {0.1, 0.25, 0.5, 1.0}) {
     const Points points = noisy(clouds::sphere(n), sigma * spacing_of(n), 1);
     const Result samples = reconstructed(points, SurfaceKind::samples),
                  fitted = reconstructed(points, SurfaceKind::automatic);
