@@ -10,7 +10,8 @@ stages_begun() { grep -c '"event":"begin"' err || true; }
 # the signal, tell the rest. The run stands still while they are counted, so that nothing hangs on how busy the machine
 # is.
 interrupt_at() {
-  local stage=$1 signal=${2:-INT} attempt begun child
+  local stage=$1 signal=${2:-INT} attempt begun child stopped
+  stopped=$((128 + $(kill -l STOP)))
   for attempt in 1 2 3 4 5; do
     "$program" big.xyz -o mesh.ply --report report.json --progress jsonl >out 2>err &
     child=$!
@@ -24,6 +25,11 @@ interrupt_at() {
     kill -s CONT "$child" 2>/dev/null || true
     status=0
     wait -f "$child" || status=$?
+    # On a busy machine bash hears of the standing still only now.
+    while [ "$status" -eq "$stopped" ]; do
+      status=0
+      wait -f "$child" || status=$?
+    done
     begun_after=$(($(stages_begun) - begun))
     if [ "$status" -ne 0 ]; then return; fi
     echo "attempt $attempt: the run was over before the signal came"
