@@ -252,9 +252,11 @@ std::string fault_in(const Surface& surface, const Scene& scene, const Tetrahedr
       if (at == corners.end()) return numbered("no face of its tetrahedron: triangle", i);
       opposite -= static_cast<std::size_t>(at - corners.begin());
     }
-    // Either may be the inner side: where a shell was dropped, its cavity is a body.
+    // Either may be the inner side: where a shell was dropped, its cavity is a body. A lid on a rim of three edges
+    // (close_smallest_rims) has no support.
     const TetrahedronIndex before = t.neighbours[inside[i]][opposite];
-    if (!before.valid() || labels[before] == labels[inside[i]]) return numbered("nothing divided by triangle", i);
+    if (!before.valid() || (labels[before] == labels[inside[i]] && support[i] > 0))
+      return numbered("nothing divided by triangle", i);
     if (!(support[i] >= 0 && support[i] <= 1)) return numbered("no share: the support of triangle", i);
   }
   if (!options.manifold || options.trim || is_open_at_cube(t, labels)) return {};

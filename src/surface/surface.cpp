@@ -112,7 +112,7 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
     if (is_open && !options.trim && !options.base) {
       // The hull that a façade ends at hangs between its outermost samples like a curtain.
       trim(marked_at_rim(surface.mesh, marked), surface);
-      close_smallest_rims(t, scene.stars, labels.labels(), surface);
+      close_smallest_rims(t, scene.stars, surface);
       marked = unsupported_triangles(t, model, rays, one_sided, pixels, surface, threads);
     }
     const double share = share_of_area(surface, marked);

@@ -78,9 +78,8 @@ std::size_t mark_smaller_fans(const TriangleMesh& mesh, std::vector<std::uint8_t
   return marked;
 }
 
-/// The tetrahedron with that face, counter-clockwise seen from outside; invalid: there is none, or the face divides
-/// nothing.
-TetrahedronIndex tetrahedron_behind(const Tetrahedralization& t, const VertexStars& stars, const Labels& labels,
+/// The tetrahedron with that face, counter-clockwise seen from outside; invalid: there is none.
+TetrahedronIndex tetrahedron_behind(const Tetrahedralization& t, const VertexStars& stars,
                                     const std::array<SampleIndex, 3>& face) {
   for (const TetrahedronIndex i : stars[VertexIndex(face[0])])
     for (std::size_t f = 0; f < face_opposite.size(); ++f)
@@ -88,9 +87,7 @@ TetrahedronIndex tetrahedron_behind(const Tetrahedralization& t, const VertexSta
         const auto is = [&](std::size_t j) {
           return t.tetrahedra[i][face_opposite[f][(k + j) % 3]] == VertexIndex(face[j]);
         };
-        if (!is(0) || !is(1) || !is(2)) continue;
-        const TetrahedronIndex before = t.neighbours[i][f];
-        return before.valid() && labels[before] != labels[i] ? i : TetrahedronIndex{};
+        if (is(0) && is(1) && is(2)) return i;
       }
   return {};
 }
@@ -149,8 +146,7 @@ void trim(std::vector<std::uint8_t> unsupported, Surface& surface) {
   } while (mark_smaller_fans(surface.mesh, unsupported) > 0);
 }
 
-void close_smallest_rims(const Tetrahedralization& t, const VertexStars& stars, const Labels& labels,
-                         Surface& surface) {
+void close_smallest_rims(const Tetrahedralization& t, const VertexStars& stars, Surface& surface) {
   const std::vector<std::uint32_t> next = along_rims(surface.mesh);
   DisjointSets pieces(next.size());
   for (const auto& [a, b, c] : surface.mesh.triangles) {
@@ -166,7 +162,7 @@ void close_smallest_rims(const Tetrahedralization& t, const VertexStars& stars, 
     if (a == no_index || next[a] != c || c > a || c > b) continue; // a rim may end where the mesh is no manifold
     // The new triangle runs the other way round.
     const std::array<SampleIndex, 3> samples{surface.sample_of[a], surface.sample_of[b], surface.sample_of[c]};
-    const TetrahedronIndex behind = tetrahedron_behind(t, stars, labels, samples);
+    const TetrahedronIndex behind = tetrahedron_behind(t, stars, samples);
     if (!behind.valid()) continue;
     edges[pieces.find(c)] -= 3;
     surface.mesh.triangles.push_back({a, b, c});

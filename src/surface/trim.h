@@ -30,9 +30,8 @@ struct UnsupportedTriangles {
 /// Takes away the triangles marked, and then, at vertices with several fans, all but the largest fan: an oriented
 /// manifold surface stays one, with boundary.
 void trim(std::vector<std::uint8_t> unsupported, Surface& surface);
-/// Rims of three edges, in which no sample is missing, get the triangle between them if it is a face between inside and
-/// outside and the piece has another rim.
-void close_smallest_rims(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Labels& labels,
-                         Surface& surface);
+/// Rims of three edges, in which no sample is missing, get the triangle between them if it is a face and the piece has
+/// another rim. Its support is 0, and what was cut away may have left one label on either side of it.
+void close_smallest_rims(const Tetrahedralization& tetrahedralization, const VertexStars& stars, Surface& surface);
 
 } // namespace eigencrust

@@ -183,7 +183,7 @@ TEST(Trim, OnlyRimsOfThreeEdgesAreClosed) {
   gone[100] = gone[next] = 1;
   const TetrahedronIndex behind = hull.surface.inside[7];
   trim(gone, hull.surface);
-  close_smallest_rims(hull.p.t, hull.p.stars, hull.labels, hull.surface);
+  close_smallest_rims(hull.p.t, hull.p.stars, hull.surface);
   const MeshSummary m = validate(hull.surface.mesh);
   EXPECT_EQ(m.triangles, whole.triangles.size() - 2);
   EXPECT_EQ(m.boundary_loops, 1u);
@@ -198,19 +198,25 @@ TEST(Trim, TheRimThatAPieceEndsAtStays) {
   std::vector<std::uint8_t> gone(hull.surface.mesh.triangles.size(), 1);
   gone[7] = 0;
   trim(gone, hull.surface);
-  close_smallest_rims(hull.p.t, hull.p.stars, hull.labels, hull.surface);
+  close_smallest_rims(hull.p.t, hull.p.stars, hull.surface);
   EXPECT_EQ(hull.surface.mesh.triangles.size(), 1u);
 }
 
-TEST(Trim, ARimAroundAFaceThatDividesNothingIsLeft) {
+TEST(Trim, ARimAroundAFaceThatDividesNothingIsClosedToo) {
   Hull hull(clouds::sphere(200));
-  std::vector<std::uint8_t> gone(hull.surface.mesh.triangles.size(), 0);
-  gone[7] = gone[100] = 1;
+  const auto triangles = hull.surface.mesh.triangles;
+  std::vector<std::uint8_t> gone(triangles.size(), 0);
+  for (std::size_t i = 0; i < gone.size(); ++i) // a longer rim, which the piece ends at
+    gone[i] = std::count(triangles[i].begin(), triangles[i].end(), triangles[100][0]) > 0;
+  ASSERT_FALSE(gone[7]);
+  gone[7] = 1;
   hull.labels[hull.surface.inside[7]] = Label::outside;
-  const std::size_t rest = gone.size() - 2;
+  const auto rest = static_cast<std::size_t>(std::count(gone.begin(), gone.end(), 0));
   trim(gone, hull.surface);
-  close_smallest_rims(hull.p.t, hull.p.stars, hull.labels, hull.surface);
-  EXPECT_EQ(hull.surface.mesh.triangles.size(), rest + 1); // only the other one
+  close_smallest_rims(hull.p.t, hull.p.stars, hull.surface);
+  EXPECT_EQ(hull.surface.mesh.triangles.size(), rest + 1);
+  EXPECT_EQ(hull.surface.support.back(), 0);
+  EXPECT_EQ(validate(hull.surface.mesh).boundary_loops, 1u);
 }
 
 TEST(Trim, RimsThatEndAtAnEdgeOfThreeTrianglesAreLeft) {
@@ -225,7 +231,7 @@ TEST(Trim, RimsThatEndAtAnEdgeOfThreeTrianglesAreLeft) {
     hull.surface.support.push_back(1);
   }
   ASSERT_EQ(validate(hull.surface.mesh).nonmanifold_edges, 2u);
-  close_smallest_rims(hull.p.t, hull.p.stars, hull.labels, hull.surface);
+  close_smallest_rims(hull.p.t, hull.p.stars, hull.surface);
   EXPECT_EQ(triangles.size(), whole + 2);
 }
 
