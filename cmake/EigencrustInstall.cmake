@@ -25,7 +25,8 @@ function(eigencrust_pkg_config name description library requires private)
     set(libs_private)
   else()
     set(requires_private "Requires.private: ${private}\n")
-    set(libs_private "Libs.private: -lstdc++ -lm\n")
+    # What has no file of pkg-config.
+    set(libs_private "Libs.private: -ltbbmalloc -lstdc++ -lm\n")
   endif()
   # The prefix is found from where the file lies, so that an installation can be moved.
   file(RELATIVE_PATH up "/p/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/p")

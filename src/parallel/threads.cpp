@@ -3,6 +3,7 @@
 
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/scalable_allocator.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <atomic>
@@ -111,6 +112,10 @@ unsigned available_threads(unsigned wanted) {
   return static_cast<unsigned>(team.size());
 }
 
+/// The library opens its allocator at its first use, where it is not linked already, and where that meets an error
+/// without memory for its text dlopen of glibc 2.36 crashes. This asks for it to be linked, and does nothing.
+void need_allocator() { scalable_free(nullptr); }
+
 } // namespace
 
 struct Threads::Impl {
@@ -126,8 +131,10 @@ struct Threads::Impl {
         arena(static_cast<int>(running)) {}
 };
 
-Threads::Threads(unsigned count, std::function<void()> check)
-    : impl_(std::make_unique<Impl>(count, static_cast<unsigned>(tbb::info::default_concurrency()), std::move(check))) {}
+Threads::Threads(unsigned count, std::function<void()> check) {
+  need_allocator();
+  impl_ = std::make_unique<Impl>(count, static_cast<unsigned>(tbb::info::default_concurrency()), std::move(check));
+}
 Threads::~Threads() = default;
 
 unsigned Threads::size() const { return impl_->count; }
