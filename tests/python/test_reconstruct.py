@@ -53,8 +53,13 @@ class SameAsTheCommand(unittest.TestCase):
         self.assertEqual((summary.genus, summary.components, summary.self_intersections), (1, 1, 0))
         self.assertEqual(summary.triangles, report["mesh"]["triangles"])
         self.assertEqual(summary.as_dict()["volume"], report["mesh"]["volume"])
-        vertices = self.cloud.points[self.result.mesh.vertex_attributes["source_index"]]
-        np.testing.assert_array_equal(self.result.vertices, vertices)
+        samples = self.cloud.points[self.result.mesh.vertex_attributes["source_index"]]
+        moved = np.linalg.norm(self.result.vertices - samples, axis=1)
+        self.assertAlmostEqual(moved.max(), report["moved"]["max"])
+        self.assertEqual(np.count_nonzero(moved), report["moved"]["vertices"])
+        unmoved = eigencrust.reconstruct(self.cloud, surface="samples")
+        np.testing.assert_array_equal(unmoved.triangles, self.result.triangles)
+        np.testing.assert_array_equal(unmoved.vertices, samples)
 
     def test_attributes_travel(self):
         points = np.array(self.cloud.points)
