@@ -1,12 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Long runs in one process: does memory grow, do threads disturb one another?
-# Usage: scripts/soak.sh [memory|threads|all] [RUNS of memory] [POINTS of threads]
+# Usage: scripts/soak.sh memory [RUNS] | threads [POINTS] | all [RUNS] [POINTS]
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/packages.sh"
 
-what=${1:-all} runs=${2:-1000} points=${3:-20000}
-case $what in memory | threads | all) ;; *) fail "memory, threads or all, not '$what'" ;; esac
+what=${1:-all} runs=1000 points=20000
+case $what in
+  memory) runs=${2:-$runs} ;;
+  threads) points=${2:-$points} ;;
+  all) runs=${2:-$runs} points=${3:-$points} ;;
+  *) fail "memory, threads or all, not '$what'" ;;
+esac
 install_packages "${build_packages[@]}" "${test_packages[@]}"
 
 if [ "$what" != threads ]; then
