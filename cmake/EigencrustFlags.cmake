@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Warnings and sanitizers for one of the project's own targets.
 function(eigencrust_flags target)
-  target_compile_options(${target} PRIVATE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wcast-qual -Wnon-virtual-dtor)
   # Without fused multiply-add a result does not depend on which instructions the compiler picked.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
   # The standard library checks each access to its containers.
   target_compile_definitions(${target} PRIVATE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
+  # Warnings are for those who change the code, whose presets ask for it; they take time.
   if(EIGENCRUST_WARNINGS_AS_ERRORS)
-    target_compile_options(${target} PRIVATE -Werror)
+    target_compile_options(${target} PRIVATE -Werror
+      -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wcast-qual -Wnon-virtual-dtor)
   endif()
   if(EIGENCRUST_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${EIGENCRUST_SANITIZE} -fno-omit-frame-pointer
