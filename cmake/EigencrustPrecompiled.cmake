@@ -8,6 +8,7 @@ function(eigencrust_precompile target)
   target_precompile_headers(${target} PRIVATE ${eigencrust_standard_headers} ${ARGN})
   # Out of precompiled headers GCC 12 warns of what is inside std::string, which it leaves alone elsewhere.
   if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
-    target_compile_options(${target} PRIVATE -Wno-array-bounds)
+    target_compile_options(${target} PRIVATE -Wno-array-bounds
+      $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overread> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>)
   endif()
 endfunction()
