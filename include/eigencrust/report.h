@@ -29,7 +29,6 @@ struct StageReport {
   double seconds = 0;                                 ///< of wall time
   std::uint64_t peak_memory_bytes = 0;                ///< of the process up to the end of the stage
   std::vector<std::pair<std::string, double>> counts; ///< what it counted, by name
-  bool beside = false; ///< ran beside an earlier stage, on other threads: its seconds are part of that one's
 };
 
 /// How a graph was parted in two; the figures are those of Partition.

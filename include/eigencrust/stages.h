@@ -38,10 +38,9 @@ double resolve_grid_spacing(const LengthChoice& option, const Samples& samples, 
                             std::span<const std::uint32_t> scan_index, const Threads& threads);
 
 /// §3: Delaunay tetrahedra of the samples and the corners of a cube whose half side is 10 diagonals of
-/// their bounding box. Points are inserted one after the other, so one thread does it; `beside` (may be empty)
-/// is called meanwhile on another, if there is one.
+/// their bounding box. Each thread makes those of a part of the samples.
 /// \throws Error{input} when all samples are coplanar or collinear
-Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const std::function<void()>& beside = {});
+Tetrahedralization tetrahedralize(Samples samples, const Threads& threads);
 /// The tetrahedra around each vertex.
 VertexStars vertex_stars(const Tetrahedralization& tetrahedralization, const Threads& threads);
 

@@ -84,7 +84,6 @@ Json json_of(const Options& o) {
 
 Json json_of(const StageReport& s) {
   Json json{{"name", s.name}, {"seconds", s.seconds}, {"peak_memory_bytes", s.peak_memory_bytes}};
-  if (s.beside) json["beside"] = true;
   for (const auto& [name, value] : s.counts) {
     const bool whole = value == static_cast<double>(static_cast<std::int64_t>(value));
     json[name] = whole ? Json(static_cast<std::int64_t>(value)) : Json(value);

@@ -29,7 +29,7 @@ class Run {
   auto stage(const std::string& name, Stage&& work) {
     throw_if_cancelled(observer_, name);
     observer_.stage_begins(name);
-    report_.stages.push_back({name, 0, 0, {}, false});
+    report_.stages.push_back({name, 0, 0, {}});
     if constexpr (std::is_void_v<decltype(work())>) {
       timed(work);
     } else {
@@ -37,13 +37,6 @@ class Run {
       if constexpr (requires { describe(result, *this); }) describe(result, *this);
       return result;
     }
-  }
-  /// Writes down a stage that ran beside the one before it.
-  void add(const std::string& name, double seconds) {
-    throw_if_cancelled(observer_, name);
-    observer_.stage_begins(name);
-    report_.stages.push_back({name, seconds, peak_memory_bytes(), {}, true});
-    observer_.stage_ends(name, seconds);
   }
   void count(const std::string& what, double value) { report_.stages.back().counts.emplace_back(what, value); }
   /// The same for an earlier stage.

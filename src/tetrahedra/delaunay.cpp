@@ -1,133 +1,125 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// §3: the Delaunay tetrahedralization. The only file that knows which code computes it.
-#include <CGAL/Delaunay_triangulation_3.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_cell_base_with_info_3.h>
-#include <CGAL/Triangulation_vertex_base_with_info_3.h>
-
+// §3: the Delaunay tetrahedralization, from parts that are made side by side.
 #include <algorithm>
-#include <memory>
-#include <thread>
+#include <optional>
+#include <span>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <eigencrust/error.h>
 #include <eigencrust/stages.h>
 
 #include "geometry/predicates.h"
-#include "geometry/tetrahedron.h"
-#include "parallel/compressed_rows.h"
+#include "parallel/threads.h"
 #include "tetrahedra/growth.h"
-#include "tetrahedra/insertion_rounds.h"
+#include "tetrahedra/sample_blocks.h"
+#include "tetrahedra/tile.h"
 
 namespace eigencrust {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::uint32_t, Kernel>;
-using CellBase =
-    CGAL::Triangulation_cell_base_with_info_3<std::uint32_t, Kernel, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
-using Delaunay = CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
-
-// Where the time goes, of a million points: the rest is for the copy in our own order.
-constexpr double share_of_insertion = 0.85;
-
 // "Much wider than the cloud" (§3): no sample may lie near a side.
 constexpr double cube_half_side_in_diagonals = 10;
 
-// A sample among thousands of tetrahedra takes a thousandth of a second, any other a thousandth of that.
-constexpr std::uint32_t samples_between_looks = 32;
+// Of smaller tiles a large part lies at the border, where the others' samples have to be looked at.
+constexpr std::uint32_t least_samples_of_a_tile = 20000;
 
-/// The corners of the cube, then the samples in rounds along the Hilbert curve.
-void insert_all(Delaunay& delaunay, const IndexedArray<VertexIndex, Vec3>& positions, std::uint32_t samples,
-                const WatchGrowth& watch) {
-  Delaunay::Cell_handle hint;
-  std::uint32_t done = 0;
-  const auto insert = [&](std::uint32_t i) {
-    if (watch && ++done % samples_between_looks == 0)
-      watch(share_of_insertion * done / positions.size(), delaunay.tds().number_of_cells());
-    const Vec3& p = positions.raw()[i];
-    const Delaunay::Vertex_handle v = delaunay.insert({p.x, p.y, p.z}, hint);
-    v->info() = i;
-    hint = v->cell();
-  };
-  for (std::uint32_t i = samples; i < positions.size(); ++i) insert(i);
-  for (const std::uint32_t i : in_rounds(samples)) insert(i);
+/// One for each thread: more tiles have more borders.
+std::vector<SampleRange> tiles_of(std::uint32_t samples, const Threads& threads) {
+  const std::uint64_t count = std::clamp(samples / least_samples_of_a_tile, 1u, threads.size());
+  const auto at = [&](std::uint64_t i) { return static_cast<std::uint32_t>(samples * i / count); };
+  std::vector<SampleRange> tiles;
+  for (std::uint64_t i = 0; i < count; ++i) tiles.push_back({at(i), at(i + 1)});
+  return tiles;
 }
 
-/// Which vertex goes where so that the smallest comes first and the second smallest second. Only even
-/// permutations are used, so the orientation stays; with it the form is unique.
-std::array<std::size_t, 4> canonical_order(const std::array<std::uint32_t, 4>& v) {
-  const auto first = static_cast<std::size_t>(std::min_element(v.begin(), v.end()) - v.begin());
-  auto rest = face_opposite[first];
-  const auto smaller = [&](std::size_t a, std::size_t b) { return v[a] < v[b]; };
-  std::rotate(rest.begin(), std::min_element(rest.begin(), rest.end(), smaller), rest.end());
-  return {first, rest[0], rest[1], rest[2]};
-}
-
-/// Cells in the engine's order, in canonical form; cells beyond the hull have no number.
-void copy_cells(Delaunay& delaunay, Tetrahedralization& result, const Threads& threads) {
-  std::vector<Delaunay::Cell_handle> cells;
-  cells.reserve(delaunay.tds().number_of_cells());
-  for (auto c = delaunay.all_cells_begin(); c != delaunay.all_cells_end(); ++c) {
-    if (delaunay.is_infinite(c)) {
-      c->info() = no_index;
-      continue;
-    }
-    if (cells.size() >= no_index - 1)
+/// The tiles one behind the other, which is the order of all tetrahedra: ranges follow one another, and tetrahedra
+/// are sorted by their smallest vertex.
+void join(std::vector<Tile>& tiles, Tetrahedralization& t, const Threads& threads) {
+  std::vector<std::uint32_t> first;
+  std::uint64_t count = 0;
+  for (const Tile& tile : tiles) {
+    first.push_back(static_cast<std::uint32_t>(count));
+    count += tile.tetrahedra.size();
+    if (count >= no_index)
       throw Error(ErrorKind::memory, "delaunay", "more than 4 billion tetrahedra", "split the cloud");
-    c->info() = static_cast<std::uint32_t>(cells.size());
-    cells.push_back(c);
   }
-  auto& tetrahedra = result.tetrahedra.raw();
-  auto& neighbours = result.neighbours.raw();
-  tetrahedra.resize(cells.size());
-  neighbours.resize(cells.size());
-  for_each_index(threads, cells.size(), [&](std::size_t i) {
-    const Delaunay::Cell_handle c = cells[i];
-    std::array<std::uint32_t, 4> v{};
-    for (std::size_t k = 0; k < 4; ++k) v[k] = c->vertex(static_cast<int>(k))->info();
-    const std::array<std::size_t, 4> order = canonical_order(v);
-    for (std::size_t k = 0; k < 4; ++k) {
-      tetrahedra[i][k] = VertexIndex{v[order[k]]};
-      neighbours[i][k] = TetrahedronIndex{c->neighbor(static_cast<int>(order[k]))->info()};
-    }
+  auto& tetrahedra = t.tetrahedra.raw();
+  auto& neighbours = t.neighbours.raw();
+  if (tiles.size() == 1) {
+    tetrahedra = std::move(tiles.front().tetrahedra);
+    neighbours = std::move(tiles.front().neighbours);
+    return;
+  }
+  tetrahedra.resize(count);
+  threads.run(tiles.size(), [&](std::size_t i) {
+    std::copy(tiles[i].tetrahedra.begin(), tiles[i].tetrahedra.end(), tetrahedra.begin() + first[i]);
+    tiles[i].tetrahedra = {};
+  });
+  neighbours.resize(count);
+  threads.run(tiles.size(), [&](std::size_t i) {
+    std::transform(tiles[i].neighbours.begin(), tiles[i].neighbours.end(), neighbours.begin() + first[i], [&](auto n) {
+      for (TetrahedronIndex& k : n)
+        if (k.valid()) k.value += first[i];
+      return n;
+    });
+    tiles[i].neighbours = {};
+    for (OpenFace& face : tiles[i].open) face.tetrahedron.value += first[i];
   });
 }
 
-/// Tetrahedra by their vertices: by the first with counting, then within each first vertex.
-std::vector<std::uint32_t> sorted_order(const Tetrahedralization& t, const Threads& threads) {
-  const auto& tetrahedra = t.tetrahedra.raw();
-  auto rows = build_rows<std::uint32_t>(t.positions.size(), [&](auto&& visit) {
-    for (std::uint32_t i = 0; i < tetrahedra.size(); ++i) visit(tetrahedra[i][0].value, i);
-  });
-  sort_rows(rows, threads, [&](std::uint32_t a, std::uint32_t b) { return tetrahedra[a] < tetrahedra[b]; });
-  return std::move(rows.item);
+/// Each open face has two sides, one in each of two tiles.
+void close_faces(const std::vector<Tile>& tiles, Tetrahedralization& t, const Threads& threads) {
+  std::vector<OpenFace> open;
+  for (const Tile& tile : tiles) open.insert(open.end(), tile.open.begin(), tile.open.end());
+  sort_blocks(threads, open);
+  const auto differ = [&] {
+    return Error(ErrorKind::guarantee, "delaunay", "parts of the triangulation do not fit together",
+                 "report this as a fault of the program");
+  };
+  if (open.size() % 2 != 0) throw differ();
+  for (std::size_t i = 0; i < open.size(); i += 2) {
+    const OpenFace &a = open[i], &b = open[i + 1];
+    if (a.vertices != b.vertices) throw differ();
+    t.neighbours[a.tetrahedron][a.corner] = b.tetrahedron;
+    t.neighbours[b.tetrahedron][b.corner] = a.tetrahedron;
+  }
 }
 
-/// From the engine's order, which depends on the order of insertion, to one that does not.
-void sort_tetrahedra(Tetrahedralization& t, const Threads& threads) {
-  const std::vector<std::uint32_t> order = sorted_order(t, threads);
-  std::vector<std::uint32_t> rank(order.size());
-  for_each_index(threads, order.size(), [&](std::size_t i) { rank[order[i]] = static_cast<std::uint32_t>(i); });
-  std::vector<std::array<VertexIndex, 4>> tetrahedra(order.size());
-  for_each_index(threads, order.size(), [&](std::size_t i) { tetrahedra[i] = t.tetrahedra.raw()[order[i]]; });
-  t.tetrahedra.raw() = std::move(tetrahedra);
-  std::vector<std::array<TetrahedronIndex, 4>> neighbours(order.size());
-  for_each_index(threads, order.size(), [&](std::size_t i) {
-    neighbours[i] = t.neighbours.raw()[order[i]];
-    for (TetrahedronIndex& n : neighbours[i])
-      if (n.valid()) n = TetrahedronIndex{rank[n.value]};
-  });
-  t.neighbours.raw() = std::move(neighbours);
+/// \return none where they were given up
+std::optional<std::vector<Tile>> try_tiles(const Tetrahedralization& t, const std::vector<SampleRange>& ranges,
+                                           const Threads& threads, const WatchGrowth& watch) {
+  const SampleBlocks blocks(std::span(t.positions.raw()).first(t.sample_count), threads);
+  std::vector<std::optional<Tile>> tiles(ranges.size());
+  TileProgress progress(watch, t.sample_count);
+  threads.run(ranges.size(), [&](std::size_t i) { tiles[i] = make_tile(t.positions, blocks, ranges[i], progress); });
+  if (progress.given_up()) return {};
+  std::vector<Tile> all;
+  for (auto& tile : tiles) all.push_back(std::move(*tile));
+  return all;
+}
+
+/// Each thread freed a triangulation. What it allocates from keeps that, and the others' stages cannot have it.
+void give_back_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+std::vector<Tile> make_tiles(const Tetrahedralization& t, const Threads& threads, const WatchGrowth& watch) {
+  auto tiles = try_tiles(t, tiles_of(t.sample_count, threads), threads, watch);
+  if (!tiles) tiles = try_tiles(t, {{0, t.sample_count}}, threads, watch);
+  return std::move(*tiles);
 }
 
 } // namespace
 
-Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const std::function<void()>& beside) {
-  return tetrahedralize(std::move(samples), threads, beside, {});
+Tetrahedralization tetrahedralize(Samples samples, const Threads& threads) {
+  return tetrahedralize(std::move(samples), threads, WatchGrowth{});
 }
 
-Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const std::function<void()>& beside,
-                                  const WatchGrowth& watch) {
+Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const WatchGrowth& watch) {
   const int dimension = affine_dimension(samples.positions.raw());
   if (dimension <= 2)
     throw Error(ErrorKind::input, "delaunay", dimension < 2 ? "all points are collinear" : "all points are coplanar",
@@ -142,21 +134,11 @@ Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const
   for (const double x : {-h, h})
     for (const double y : {-h, h})
       for (const double z : {-h, h}) result.positions.raw().push_back(middle + Vec3{x, y, z});
-  auto engine = std::make_unique<Delaunay>();
-  Delaunay& delaunay = *engine;
-  threads.run(beside ? 2 : 1, [&](std::size_t task) {
-    if (task == 0)
-      insert_all(delaunay, result.positions, result.sample_count, watch);
-    else
-      beside();
-  });
-  if (delaunay.number_of_vertices() != result.positions.size())
-    throw Error(ErrorKind::guarantee, "delaunay", "a sample was lost", "report this as a fault of the program");
-  if (watch) watch(share_of_insertion, delaunay.tds().number_of_cells());
-  copy_cells(delaunay, result, threads);
-  if (watch) watch((1 + share_of_insertion) / 2, result.tetrahedra.size());
-  engine.reset(); // its half a kilobyte per sample is not needed beside ours
-  sort_tetrahedra(result, threads);
+  std::vector<Tile> tiles = make_tiles(result, threads, watch);
+  join(tiles, result, threads);
+  close_faces(tiles, result, threads);
+  tiles.clear();
+  give_back_freed_memory();
   return result;
 }
 

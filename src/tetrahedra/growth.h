@@ -7,12 +7,11 @@
 
 namespace eigencrust {
 
-/// Called every few samples, perhaps from another thread than the caller's, with the fraction done and the number of
+/// Called every few samples, from all threads, with the fraction done and the number of
 /// tetrahedra so far. May throw to end the work.
 using WatchGrowth = std::function<void(double, std::uint64_t)>;
 
 /// As in stages.h.
-Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const std::function<void()>& beside,
-                                  const WatchGrowth& watch);
+Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const WatchGrowth& watch);
 
 } // namespace eigencrust

@@ -3,7 +3,6 @@
 
 #include <eigencrust/memory_forecast.h>
 
-#include <chrono>
 #include <thread>
 
 #include "report/snapshots.h"
@@ -11,12 +10,6 @@
 
 namespace eigencrust {
 namespace {
-
-double seconds_of(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// Ends the triangulation when the run is cancelled, or when what grows would take more memory than is allowed. The
 /// observer hears of progress from the caller's thread alone.
@@ -32,26 +25,6 @@ WatchGrowth watch_of(const PointCloud& cloud, const Context& context) {
   };
 }
 
-void triangulate_and_measure(const PointCloud& cloud, Samples samples, const Context& context, Scene& scene) {
-  const auto& [options, run, threads] = context;
-  SampleMeasures& measures = scene.measures;
-  if (threads.size() == 1) {
-    run.stage("sample_model", [&] { measures = measure(cloud, samples, options, threads); });
-    scene.tetrahedralization = run.stage(
-        "delaunay", [&] { return tetrahedralize(std::move(samples), threads, {}, watch_of(cloud, context)); });
-    return;
-  }
-  double seconds = 0;
-  scene.tetrahedralization = run.stage("delaunay", [&] {
-    Samples copy = samples;
-    return tetrahedralize(
-        std::move(copy), threads,
-        [&] { seconds = seconds_of([&] { measures = measure(cloud, samples, options, threads); }); },
-        watch_of(cloud, context));
-  });
-  run.add("sample_model", seconds);
-}
-
 } // namespace
 
 Scene make_scene(const PointCloud& cloud, const Context& context) {
@@ -59,7 +32,9 @@ Scene make_scene(const PointCloud& cloud, const Context& context) {
   Scene scene;
   Samples samples = run.stage("samples", [&] { return prepare_samples(cloud.points, threads); });
   scene.sample_of_row = std::move(samples.of_row);
-  triangulate_and_measure(cloud, std::move(samples), context, scene);
+  scene.measures = run.stage("sample_model", [&] { return measure(cloud, samples, options, threads); });
+  scene.tetrahedralization =
+      run.stage("delaunay", [&] { return tetrahedralize(std::move(samples), threads, watch_of(cloud, context)); });
   describe(scene.measures, run);
   const Tetrahedralization& t = scene.tetrahedralization;
   run.product("samples", [&] { return snapshot_of_samples(t, scene.measures.model); });

@@ -18,8 +18,7 @@ struct Scene {
   Poles poles;
 };
 
-/// §3. The stages samples, delaunay, sample_model, stars and poles. Delaunay keeps one thread busy; the model
-/// is made beside it where there are more.
+/// §3. The stages samples, sample_model, delaunay, stars and poles.
 /// \throws Error{input} where there are no tetrahedra
 Scene make_scene(const PointCloud& cloud, const Context& context);
 

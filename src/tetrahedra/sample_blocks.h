@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Searches among the samples that a part of the triangulation does not hold.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <eigencrust/types.h>
+
+#include "parallel/threads.h"
+
+namespace eigencrust {
+
+/// Samples that follow one another along the Hilbert curve.
+struct SampleRange {
+  std::uint32_t begin = 0, end = 0;
+  [[nodiscard]] bool holds(std::uint32_t sample) const { return begin <= sample && sample < end; }
+  [[nodiscard]] std::uint32_t size() const { return end - begin; }
+};
+
+/// How far two intervals are apart, 0 where they meet.
+inline double gap(double a_min, double a_max, double b_min, double b_max) {
+  return std::max(std::max(a_min - b_max, b_min - a_max), 0.0);
+}
+
+/// A tree of boxes around consecutive samples, eight to each: neighbours along the Hilbert curve are neighbours in
+/// space, so the boxes are small, and a range of samples is a few of them.
+class SampleBlocks {
+ public:
+  static constexpr std::uint32_t branches = 8;
+  static constexpr std::uint32_t block_size = branches * branches;
+
+  /// \param samples along the Hilbert curve, at least one; they outlive the boxes
+  SampleBlocks(std::span<const Vec3> samples, const Threads& threads);
+
+  /// Around the samples [block, block + 1) * block_size.
+  [[nodiscard]] Box3 box_of_block(std::uint32_t block) const;
+
+  /// The sample nearest to `centre` that is not in `left_out`, not farther than the root of `squared_reach`, and of
+  /// which accept(sample, squared distance) is true.
+  /// \param looked_at is added how many nodes were looked at
+  template <class Accept>
+  std::optional<std::uint32_t> nearest(const Vec3& centre, double squared_reach, const SampleRange& left_out,
+                                       std::uint64_t& looked_at, Accept&& accept) const {
+    std::optional<std::uint32_t> found;
+    const Box3 place{centre, centre};
+    walk(place, left_out, squared_reach, looked_at, [&](std::uint32_t s) {
+      const double distance = squared_norm(samples_[s] - centre);
+      if (distance > squared_reach || !accept(s, distance)) return;
+      found = s;
+      squared_reach = distance;
+    });
+    return found;
+  }
+
+  /// A length that no sample outside `left_out` is nearer to the box than; infinite where there is none.
+  [[nodiscard]] double distance_to_others(const Box3& box, const SampleRange& left_out) const;
+
+ private:
+  /// The boxes of eight children, coordinate by coordinate: processors compare several at once.
+  struct Node {
+    using Eight = std::array<double, branches>;
+    Eight min_x, min_y, min_z, max_x, max_y, max_z;
+    Node();
+    void set(std::size_t child, const Box3& box);
+    [[nodiscard]] Box3 around() const;
+    /// From each child to a box.
+    [[nodiscard]] Eight squared_distances(const Box3& to) const {
+      Eight result{};
+      add_squared_gaps(min_x, max_x, to.min.x, to.max.x, result);
+      add_squared_gaps(min_y, max_y, to.min.y, to.max.y, result);
+      add_squared_gaps(min_z, max_z, to.min.z, to.max.z, result);
+      return result;
+    }
+    static void add_squared_gaps(const Eight& min, const Eight& max, double to_min, double to_max, Eight& sum) {
+      for (std::size_t i = 0; i < branches; ++i) {
+        const double length = gap(min[i], max[i], to_min, to_max);
+        sum[i] += length * length;
+      }
+    }
+  };
+  struct Place {
+    std::uint32_t level, index;
+    double squared_distance;
+  };
+  /// Walking down, no more than eight wait on each of the eleven levels that 2^32 samples have.
+  static constexpr std::size_t most_waiting = 8 * 11;
+
+  /// visit(sample) for those in blocks that are not farther from `box` than the root of `squared_reach`, which visit
+  /// may make smaller.
+  template <class Visit>
+  void walk(const Box3& box, const SampleRange& left_out, const double& squared_reach, std::uint64_t& looked_at,
+            Visit&& visit) const {
+    std::array<Place, most_waiting> waiting;
+    std::size_t count = 0;
+    waiting[count++] = {static_cast<std::uint32_t>(levels_.size()), 0, 0};
+    while (count > 0) {
+      const Place place = waiting[--count];
+      if (place.squared_distance > squared_reach) continue;
+      ++looked_at;
+      if (place.level == 0) {
+        const SampleRange range = range_of(place.level, place.index);
+        for (std::uint32_t s = range.begin; s < range.end; ++s)
+          if (!left_out.holds(s)) visit(s);
+        continue;
+      }
+      const auto distances = levels_[place.level - 1][place.index].squared_distances(box);
+      std::size_t nearest = count;
+      for (std::uint32_t i = 0; i < branches; ++i) {
+        const Place child{place.level - 1, place.index * branches + i, distances[i]};
+        if (child.squared_distance > squared_reach || lies_within(range_of(child.level, child.index), left_out))
+          continue;
+        if (count == nearest || distances[i] < waiting[nearest].squared_distance) nearest = count;
+        waiting[count++] = child;
+      }
+      if (nearest < count) std::swap(waiting[nearest], waiting[count - 1]); // it is the next
+    }
+  }
+
+  /// Of a block on level 0, of a node on those above.
+  [[nodiscard]] SampleRange range_of(std::uint32_t level, std::uint32_t index) const {
+    const std::uint64_t n = samples_.size(), shift = 3 * (level + 1), first = index;
+    return {static_cast<std::uint32_t>(std::min(n, first << shift)),
+            static_cast<std::uint32_t>(std::min(n, (first + 1) << shift))};
+  }
+  static bool lies_within(const SampleRange& inner, const SampleRange& outer) {
+    return outer.begin <= inner.begin && inner.end <= outer.end;
+  }
+
+  std::span<const Vec3> samples_;
+  std::vector<std::vector<Node>> levels_; ///< over groups of eight samples, over eight of those, and so on to one
+};
+
+} // namespace eigencrust
