@@ -7,6 +7,7 @@
 
 #include "geometry/float_places.h"
 #include "geometry/self_intersections.h"
+#include "surface/clear_stars.h"
 
 namespace eigencrust {
 namespace {
@@ -33,12 +34,14 @@ class Uncrossing {
       movable_[v] = 1;
       mesh_.vertices[v] = rounded(mesh_.vertices[v]);
     });
-    degenerate_ = find_degenerate_triangles(mesh_.vertices, mesh_.triangles, threads_);
   }
 
   UncrossCounts run() {
     UncrossCounts counts;
+    const std::vector<std::uint8_t> clear = clear_stars(mesh_.vertices, fans_, threads_);
+    degenerate_ = find_degenerate_triangles(mesh_.vertices, mesh_.triangles, clear, threads_);
     CrossingSearch search(mesh_.vertices, mesh_.triangles, degenerate_, threads_);
+    search.set_clear(clear);
     std::vector<CrossingSearch::Pair> pairs = search.all(threads_);
     counts.crossings = pairs.size();
     while (ease(bad_triangles(pairs))) {

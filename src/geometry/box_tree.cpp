@@ -2,6 +2,8 @@
 #include "geometry/box_tree.h"
 
 #include <algorithm>
+#include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace eigencrust {
@@ -34,27 +36,30 @@ std::pair<std::uint32_t, std::uint32_t> node_counts(std::uint32_t n) {
 /// Where nodes stand follows from the numbers of items alone, so parts can be built side by side.
 class BoxTree::Builder {
  public:
-  Builder(BoxTree& tree, std::span<const Box3> boxes) : tree_(tree), boxes_(boxes), items_(boxes.size()) {
-    for (std::uint32_t i = 0; i < items_.size(); ++i) items_[i] = {boxes[i].centre(), i};
+  Builder(BoxTree& tree, std::span<const Box3> boxes, const Threads& threads)
+      : tree_(tree), boxes_(boxes), items_(boxes.size()) {
+    const Box3 whole = bounds_of(boxes, threads);
+    const Vec3 middle = whole.centre();
+    const Vec3 half = 0.5 * whole.max - 0.5 * whole.min;
+    const double largest = std::max({half.x, half.y, half.z});
+    const double scale = largest > 0 && std::isfinite(1 / largest) ? 1 / largest : 0;
+    for_each_index(threads, items_.size(), [&](std::size_t i) {
+      const Vec3 at = scale * (boxes[i].centre() - middle);
+      items_[i] = {{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)},
+                   static_cast<std::uint32_t>(i)};
+    });
   }
 
   void run(const Threads& threads) {
-    const Part whole{0, 0, static_cast<std::uint32_t>(boxes_.size())};
-    std::vector<Part> open{whole}, parts;
+    std::vector<Part> open{{0, 0, static_cast<std::uint32_t>(boxes_.size())}};
     std::vector<std::uint32_t> above;
-    while (!open.empty()) {
-      const Part part = open.back();
-      open.pop_back();
-      if (part.end - part.begin <= items_of_a_part) {
-        parts.push_back(part);
-        continue;
-      }
-      above.push_back(part.node);
-      const auto [left, right] = split(part);
-      open.push_back(right);
-      open.push_back(left);
+    for (bool wide = open[0].end > items_of_a_part; wide; wide = open[0].end - open[0].begin > items_of_a_part) {
+      std::vector<Part> halves(2 * open.size()); // all parts have the same number of items, or one more
+      threads.run(open.size(), [&](std::size_t p) { std::tie(halves[2 * p], halves[2 * p + 1]) = split(open[p]); });
+      for (const Part& part : open) above.push_back(part.node);
+      open.swap(halves);
     }
-    threads.run(parts.size(), [&](std::size_t p) { build(parts[p]); });
+    threads.run(open.size(), [&](std::size_t p) { build(open[p]); });
     for (auto node = above.rbegin(); node != above.rend(); ++node) join(*node); // children come after their parents
   }
 
@@ -62,10 +67,22 @@ class BoxTree::Builder {
   struct Part {
     std::uint32_t node, begin, end;
   };
+  /// Where a box stands to float precision, in units of half the largest side of all: only the shape of the tree hangs
+  /// on it.
   struct Item {
-    Vec3 centre;
+    std::array<float, 3> centre;
     std::uint32_t number;
   };
+
+  static Box3 bounds_of(std::span<const Box3> boxes, const Threads& threads) {
+    std::vector<Box3> parts((boxes.size() + default_block - 1) / default_block);
+    for_blocks(threads, boxes.size(), default_block, [&](std::size_t begin, std::size_t end, std::size_t b) {
+      for (std::size_t i = begin; i < end; ++i) add(parts[b], boxes[i]);
+    });
+    Box3 whole;
+    for (const Box3& part : parts) add(whole, part);
+    return whole;
+  }
 
   void build(const Part& part) {
     if (part.end - part.begin > leaf_size) {
@@ -85,23 +102,33 @@ class BoxTree::Builder {
   }
 
   std::pair<Part, Part> split(const Part& part) {
-    const auto first = items_.begin();
-    Box3 spread;
-    for (std::uint32_t i = part.begin; i < part.end; ++i) add(spread, items_[i].centre);
-    const Vec3 size = spread.max - spread.min;
-    double Vec3::*axis = &Vec3::x;
-    if (size.y > size.*axis) axis = &Vec3::y;
-    if (size.z > size.*axis) axis = &Vec3::z;
-    // Ties go by number: the tree is the same whatever the library's selection algorithm does.
-    const auto before = [&](const Item& a, const Item& b) {
-      const double ka = a.centre.*axis, kb = b.centre.*axis;
-      return ka < kb || (ka == kb && a.number < b.number);
-    };
+    std::array<float, 3> low = items_[part.begin].centre, high = low;
+    for (std::uint32_t i = part.begin; i < part.end; ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], items_[i].centre[k]);
+        high[k] = std::max(high[k], items_[i].centre[k]);
+      }
+    const auto size = [&](std::size_t k) { return high[k] - low[k]; };
     const std::uint32_t middle = part.begin + (part.end - part.begin) / 2;
-    std::nth_element(first + part.begin, first + middle, first + part.end, before);
+    if (size(2) > std::max(size(0), size(1)))
+      part_by<2>(part, middle);
+    else if (size(1) > size(0))
+      part_by<1>(part, middle);
+    else
+      part_by<0>(part, middle);
     const std::uint32_t left = part.node + 1, right = left + node_counts(middle - part.begin).first;
     tree_.nodes_[part.node].first = right;
     return {{left, part.begin, middle}, {right, middle, part.end}};
+  }
+
+  template <std::size_t axis>
+  void part_by(const Part& part, std::uint32_t middle) {
+    // Ties go by number: the tree is the same whatever the library's selection algorithm does.
+    const auto before = [](const Item& a, const Item& b) {
+      return a.centre[axis] < b.centre[axis] || (a.centre[axis] == b.centre[axis] && a.number < b.number);
+    };
+    const auto first = items_.begin();
+    std::nth_element(first + part.begin, first + middle, first + part.end, before);
   }
 
   void join(std::uint32_t node) {
@@ -141,7 +168,7 @@ std::vector<BoxTree::NodePair> BoxTree::parts_of_join() const {
 BoxTree::BoxTree(std::span<const Box3> boxes, const Threads& threads) : order_(boxes.size()) {
   if (boxes.empty()) return;
   nodes_.resize(node_counts(static_cast<std::uint32_t>(boxes.size())).first);
-  Builder(*this, boxes).run(threads);
+  Builder(*this, boxes, threads).run(threads);
 }
 
 } // namespace eigencrust

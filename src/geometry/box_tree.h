@@ -3,6 +3,7 @@
 /// A bounding volume hierarchy over boxes; what the boxes hold is the caller's affair.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -13,6 +14,14 @@
 #include "parallel/threads.h"
 
 namespace eigencrust {
+
+/// Of a triangle with finite corners.
+inline Box3 box_around(const Vec3& p, const Vec3& q, const Vec3& r) {
+  Box3 box;
+  box.min = {std::min({p.x, q.x, r.x}), std::min({p.y, q.y, r.y}), std::min({p.z, q.z, r.z})};
+  box.max = {std::max({p.x, q.x, r.x}), std::max({p.y, q.y, r.y}), std::max({p.z, q.z, r.z})};
+  return box;
+}
 
 /// Binary tree of boxes, split at the median along the longest axis. Queries only read.
 class BoxTree {
@@ -60,19 +69,17 @@ class BoxTree {
   using NodePair = std::array<std::uint32_t, 2>;
   /// Parts of the work of finding all pairs of items that may overlap; as many for any number of threads.
   [[nodiscard]] std::vector<NodePair> parts_of_join() const;
-  /// visit(a, b) for every two places in order(), a < b, of leaves that overlap and are below these nodes; over all
+  /// visit(a, b) for every two leaves that overlap and are below these nodes, and for each leaf and itself; over all
   /// parts each pair is met once. One walk for all items of a leaf is much shorter than one for each.
   template <class Visit>
   void join(const NodePair& part, Visit&& visit) const {
     const auto [a, b] = part;
     const Node &p = nodes_[a], &q = nodes_[b];
     if (a != b && !overlap(p.box, q.box)) return;
-    if (p.count > 0 && q.count > 0) {
-      for (std::uint32_t i = p.first; i < p.first + p.count; ++i)
-        for (std::uint32_t j = a == b ? i + 1 : q.first; j < q.first + q.count; ++j) visit(i, j);
-      return;
-    }
-    for_each_child_pair(part, [&](const NodePair& child) { join(child, visit); });
+    if (p.count > 0 && q.count > 0)
+      visit(p, q);
+    else
+      for_each_child_pair(part, [&](const NodePair& child) { join(child, visit); });
   }
 
   static bool overlap(const Box3& a, const Box3& b) {

@@ -106,10 +106,17 @@ bool intersect(std::span<const Vec3> vertices, Triangle f, Triangle g) {
   }
 }
 
+void add_to(Box3& box, const Box3& other) {
+  box.min = {std::min(box.min.x, other.min.x), std::min(box.min.y, other.min.y), std::min(box.min.z, other.min.z)};
+  box.max = {std::max(box.max.x, other.max.x), std::max(box.max.y, other.max.y), std::max(box.max.z, other.max.z)};
+}
+
 std::vector<Box3> boxes_of(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
   std::vector<Box3> boxes(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (const std::uint32_t v : triangles[t]) boxes[t].add(vertices[v]);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto& [a, b, c] = triangles[t];
+    boxes[t] = box_around(vertices[a], vertices[b], vertices[c]);
+  }
   return boxes;
 }
 
@@ -215,10 +222,13 @@ bool is_degenerate(std::span<const Vec3> vertices, const Triangle& triangle) {
 }
 
 std::vector<std::uint8_t> find_degenerate_triangles(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
-                                                    const Threads& threads) {
+                                                    std::span<const std::uint8_t> clear, const Threads& threads) {
   std::vector<std::uint8_t> degenerate(triangles.size());
-  for_each_index(threads, triangles.size(),
-                 [&](std::size_t t) { degenerate[t] = is_degenerate(vertices, triangles[t]) ? 1 : 0; });
+  for_each_index(threads, triangles.size(), [&](std::size_t t) {
+    const auto& [a, b, c] = triangles[t];
+    if (!clear.empty() && (clear[a] | clear[b] | clear[c]) != 0) return;
+    degenerate[t] = is_degenerate(vertices, triangles[t]) ? 1 : 0;
+  });
   return degenerate;
 }
 
@@ -232,34 +242,115 @@ Crossings count_self_intersections(std::span<const Vec3> vertices, std::span<con
   return sound.empty() ? Crossings{} : CrossingCounter(vertices, sound, limits, threads).count(threads);
 }
 
+/// Sorts triangles to vertices, so that each is in one star.
+class CrossingSearch::Stars {
+ public:
+  Stars(std::span<const Triangle> triangles, std::span<const std::uint8_t> degenerate, std::size_t vertices)
+      : hub_(vertices, 0) {
+    // A vertex is a hub where a triangle has none yet; then each triangle goes to that of its hubs that has the fewest.
+    const auto is_hub = [&](std::uint32_t v) { return hub_[v] != 0; };
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      if (degenerate[t] == 0 && std::none_of(triangles[t].begin(), triangles[t].end(), is_hub))
+        hub_[triangles[t][0]] = 1;
+    std::vector<std::uint32_t> star_of(vertices, no_index); // the last one of each hub
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      if (degenerate[t] != 0) continue;
+      std::uint32_t best = no_index;
+      for (const std::uint32_t v : triangles[t])
+        if (is_hub(v) && (best == no_index || count_at(star_of[v]) < count_at(star_of[best]))) best = v;
+      if (star_of[best] == no_index || count_at(star_of[best]) == most_of_star) {
+        star_of[best] = static_cast<std::uint32_t>(members_.size());
+        members_.push_back({best, 0, {}});
+      }
+      Members& star = members_[star_of[best]];
+      star.triangle[star.count++] = t;
+    }
+  }
+
+  struct Members {
+    std::uint32_t hub, count;
+    std::array<std::uint32_t, most_of_star> triangle;
+  };
+  [[nodiscard]] const std::vector<Members>& members() const { return members_; }
+
+ private:
+  [[nodiscard]] std::uint32_t count_at(std::uint32_t star) const { return star == no_index ? 0 : members_[star].count; }
+  std::vector<std::uint8_t> hub_; ///< of each vertex
+  std::vector<Members> members_;  ///< of each star
+};
+
 CrossingSearch::CrossingSearch(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                                std::span<const std::uint8_t> degenerate, const Threads& threads)
     : vertices_(vertices), triangles_(triangles), degenerate_(degenerate) {
-  std::vector<std::uint32_t> sound;
-  for (std::uint32_t t = 0; t < triangles.size(); ++t)
-    if (degenerate[t] == 0) sound.push_back(t);
-  if (sound.empty()) return;
-  std::vector<Box3> boxes(sound.size());
-  for_each_index(threads, boxes.size(), [&](std::size_t i) { boxes[i] = box_of(sound[i]); });
+  const Stars stars(triangles, degenerate, vertices.size());
+  const auto& members = stars.members();
+  if (members.empty()) return;
+  std::vector<Box3> boxes(members.size());
+  for_each_index(threads, boxes.size(), [&](std::size_t s) {
+    for (std::uint32_t k = 0; k < members[s].count; ++k) add_to(boxes[s], box_of(members[s].triangle[k]));
+  });
   tree_ = BoxTree(boxes, threads);
-  number_.resize(sound.size());
-  boxes_.resize(sound.size());
-  for_each_index(threads, sound.size(), [&](std::size_t place) {
-    number_[place] = sound[tree_.order()[place]];
-    boxes_[place] = boxes[tree_.order()[place]];
+  stars_.resize(members.size());
+  std::uint32_t begin = 0;
+  for (std::size_t place = 0; place < stars_.size(); ++place) {
+    const std::uint32_t s = tree_.order()[place];
+    stars_[place] = {boxes[s], members[s].hub, begin, begin + members[s].count};
+    begin += members[s].count;
+  }
+  items_.resize(begin);
+  for_each_index(threads, stars_.size(), [&](std::size_t place) {
+    const Stars::Members& star = members[tree_.order()[place]];
+    for (std::uint32_t k = 0; k < star.count; ++k)
+      items_[stars_[place].begin + k] = {box_of(star.triangle[k]), triangles[star.triangle[k]], star.triangle[k]};
   });
   parts_ = tree_.parts_of_join();
+}
+
+/// Have they a vertex in common whose triangles are known not to cross?
+inline bool CrossingSearch::shares_clear(const Triangle& f, const Triangle& g) const {
+  if (clear_.empty()) return false;
+  const auto is_shared = [&](std::uint32_t v) { return ((v == g[0]) | (v == g[1]) | (v == g[2])) != 0; };
+  return std::any_of(f.begin(), f.end(), [&](std::uint32_t v) { return is_shared(v) && clear_[v] != 0; });
+}
+
+/// Those whose boxes overlap the other. Whether one does is anybody's guess: each is written down.
+CrossingSearch::Near CrossingSearch::items_near(const Star& star, const Box3& box) const {
+  Near near;
+  for (std::uint32_t k = star.begin; k < star.end; ++k) {
+    near.item[near.count] = &items_[k];
+    near.count += BoxTree::overlap(items_[k].box, box) ? 1 : 0;
+  }
+  return near;
+}
+
+/// look(a, b) for two triangles of these leaves of the tree, each pair once, whose boxes may overlap.
+template <class Look>
+void CrossingSearch::look_at_pairs(const BoxTree::Node& p, const BoxTree::Node& q, Look&& look) const {
+  for (std::uint32_t i = p.first; i < p.first + p.count; ++i) {
+    const Star& one = stars_[i];
+    if (&p == &q && (clear_.empty() || clear_[one.hub] == 0))
+      for (std::uint32_t a = one.begin; a < one.end; ++a)
+        for (std::uint32_t b = a + 1; b < one.end; ++b) look(items_[a], items_[b]);
+    for (std::uint32_t j = &p == &q ? i + 1 : q.first; j < q.first + q.count; ++j) {
+      const Star& other = stars_[j];
+      if (!BoxTree::overlap(one.box, other.box)) continue;
+      const Near near_other = items_near(one, other.box), near_one = items_near(other, one.box);
+      for (std::uint32_t a = 0; a < near_other.count; ++a)
+        for (std::uint32_t b = 0; b < near_one.count; ++b) look(*near_other.item[a], *near_one.item[b]);
+    }
+  }
 }
 
 /// visit(part, f, g), f < g, for each pair once, on the thread of the part.
 template <class Visit>
 void CrossingSearch::for_all(const Threads& threads, Visit&& visit) const {
   threads.run(parts_.size(), [&](std::size_t part) {
-    tree_.join(parts_[part], [&](std::uint32_t i, std::uint32_t j) {
-      if (!BoxTree::overlap(boxes_[i], boxes_[j])) return;
-      const std::uint32_t f = std::min(number_[i], number_[j]), g = std::max(number_[i], number_[j]);
+    const auto look = [&](const Item& one, const Item& other) {
+      if (!BoxTree::overlap(one.box, other.box) || shares_clear(one.corners, other.corners)) return;
+      const std::uint32_t f = std::min(one.number, other.number), g = std::max(one.number, other.number);
       if (intersect(vertices_, triangles_[f], triangles_[g])) visit(part, f, g);
-    });
+    };
+    tree_.join(parts_[part], [&](const BoxTree::Node& p, const BoxTree::Node& q) { look_at_pairs(p, q, look); });
   });
 }
 
@@ -304,11 +395,13 @@ std::vector<CrossingSearch::Pair> CrossingSearch::of_changed(std::span<const std
         if (BoxTree::overlap(box, other) && intersect(vertices_, triangles_[f], triangles_[g]))
           pairs[b].push_back({f, g});
       };
-      if (!boxes_.empty())
-        tree_.overlapping_leaves(box, [&](std::uint32_t place) {
-          if (state_[number_[place]] == State::same) look(number_[place], boxes_[place]);
-          return true;
-        });
+      tree_.overlapping_leaves(box, [&](std::uint32_t place) {
+        const Star& star = stars_[place];
+        if (!BoxTree::overlap(box, star.box)) return true;
+        for (std::uint32_t k = star.begin; k < star.end; ++k)
+          if (state_[items_[k].number] == State::same) look(items_[k].number, items_[k].box);
+        return true;
+      });
       moved.overlapping_leaves(box, [&](std::uint32_t place) {
         const std::uint32_t item = moved.order()[place], g = number[item];
         if (state_[g] == State::changed || f < g) look(g, boxes[item]);
@@ -322,9 +415,8 @@ std::vector<CrossingSearch::Pair> CrossingSearch::of_changed(std::span<const std
 }
 
 Box3 CrossingSearch::box_of(std::uint32_t t) const {
-  Box3 box;
-  for (const std::uint32_t v : triangles_[t]) box.add(vertices_[v]);
-  return box;
+  const auto& [a, b, c] = triangles_[t];
+  return box_around(vertices_[a], vertices_[b], vertices_[c]);
 }
 
 } // namespace eigencrust

@@ -19,8 +19,14 @@ namespace eigencrust {
 /// Do two vertices of the triangle coincide, or are all three collinear (exact)?
 bool is_degenerate(std::span<const Vec3> vertices, const Triangle& triangle);
 /// For each triangle 1 when it is degenerate, else 0.
+/// \param clear for each vertex 1 where none of its triangles is known to be; empty: nothing is known
 std::vector<std::uint8_t> find_degenerate_triangles(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
-                                                    const Threads& threads);
+                                                    std::span<const std::uint8_t> clear, const Threads& threads);
+inline std::vector<std::uint8_t> find_degenerate_triangles(std::span<const Vec3> vertices,
+                                                           std::span<const Triangle> triangles,
+                                                           const Threads& threads) {
+  return find_degenerate_triangles(vertices, triangles, {}, threads);
+}
 
 /// How many pairs of triangles may be looked at. Those whose boxes overlap are: some 20 of each triangle of a surface,
 /// and all there are where all triangles cross one another, which nobody waits for.
@@ -56,6 +62,10 @@ class CrossingSearch {
   CrossingSearch(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                  std::span<const std::uint8_t> degenerate, const Threads& threads);
 
+  /// \param clear for each vertex 1 where its triangles are known to meet in what they share only, until it or a
+  ///        neighbour moves (see clear_stars()); kept as a view
+  void set_clear(std::span<const std::uint8_t> clear) { clear_ = clear; }
+
   /// As long as nothing has moved. The same order for any number of threads.
   [[nodiscard]] std::uint64_t count(const Threads& threads) const;
   [[nodiscard]] std::vector<Pair> all(const Threads& threads) const;
@@ -68,13 +78,36 @@ class CrossingSearch {
 
   template <class Visit>
   void for_all(const Threads& threads, Visit&& visit) const;
+  [[nodiscard]] bool shares_clear(const Triangle& f, const Triangle& g) const;
   [[nodiscard]] Box3 box_of(std::uint32_t t) const;
+
+  struct Item { ///< a triangle
+    Box3 box;
+    Triangle corners;
+    std::uint32_t number;
+  };
+  /// Triangles around one vertex: a few, as of a surface most of the pairs that are near one another are.
+  struct Star {
+    Box3 box;
+    std::uint32_t hub, begin, end; ///< the vertex; places of its triangles
+  };
+  static constexpr std::size_t most_of_star = 8; ///< triangles: the box of more would be too large
+  class Stars;
+  struct Near {
+    std::uint32_t count = 0;
+    std::array<const Item*, most_of_star + 1> item; ///< and one that is not
+  };
+  [[nodiscard]] Near items_near(const Star& star, const Box3& box) const;
+
+  template <class Look>
+  void look_at_pairs(const BoxTree::Node& p, const BoxTree::Node& q, Look&& look) const;
 
   std::span<const Vec3> vertices_;
   std::span<const Triangle> triangles_;
   std::span<const std::uint8_t> degenerate_;
-  std::vector<std::uint32_t> number_; ///< of triangles, in the order of the tree's leaves
-  std::vector<Box3> boxes_;           ///< of those
+  std::span<const std::uint8_t> clear_; ///< of each vertex; empty: nothing is known
+  std::vector<Star> stars_;             ///< in the order of the tree's leaves
+  std::vector<Item> items_;             ///< star by star
   BoxTree tree_;
   std::vector<BoxTree::NodePair> parts_;
   std::vector<State> state_; ///< of each triangle; empty: nothing has moved

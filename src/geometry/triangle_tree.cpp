@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Nearest-point and ray queries. A tree of our own, not a library's: degenerate triangles are welcome,
 // ties go by triangle number, and rays cannot slip through between two triangles.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -15,9 +16,8 @@ namespace eigencrust {
 namespace {
 
 double squared_distance(const Box3& box, const Vec3& p) {
-  const Vec3 d{std::fmax(0.0, std::fmax(box.min.x - p.x, p.x - box.max.x)),
-               std::fmax(0.0, std::fmax(box.min.y - p.y, p.y - box.max.y)),
-               std::fmax(0.0, std::fmax(box.min.z - p.z, p.z - box.max.z))};
+  const Vec3 d{std::max({0.0, box.min.x - p.x, p.x - box.max.x}), std::max({0.0, box.min.y - p.y, p.y - box.max.y}),
+               std::max({0.0, box.min.z - p.z, p.z - box.max.z})};
   return squared_norm(d);
 }
 
@@ -84,22 +84,23 @@ struct TriangleTree::Impl {
 TriangleTree::TriangleTree(const TriangleMesh& mesh, unsigned threads) : impl_(std::make_unique<Impl>()) {
   if (mesh.triangles.empty())
     throw Error(ErrorKind::input, "distance tree", "the mesh has no triangles", "give a mesh");
+  const Threads team(threads);
   std::vector<Box3> boxes(mesh.triangles.size());
-  for (std::size_t t = 0; t < boxes.size(); ++t) {
-    for (const std::uint32_t v : mesh.triangles[t]) {
+  for_each_index(team, boxes.size(), [&](std::size_t t) {
+    for (const std::uint32_t v : mesh.triangles[t])
       if (v >= mesh.vertices.size() || !is_finite(mesh.vertices[v]))
         throw Error(ErrorKind::input, "distance tree",
                     "triangle " + std::to_string(t) + " names a vertex that is missing or not finite",
                     "repair the mesh");
-      boxes[t].add(mesh.vertices[v]);
-    }
-  }
-  impl_->tree = BoxTree(boxes, Threads(threads));
-  impl_->corners.reserve(boxes.size());
-  for (const std::uint32_t t : impl_->tree.order()) {
-    const auto& v = mesh.triangles[t];
-    impl_->corners.push_back({mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]});
-  }
+    const auto& [a, b, c] = mesh.triangles[t];
+    boxes[t] = box_around(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+  });
+  impl_->tree = BoxTree(boxes, team);
+  impl_->corners.resize(boxes.size());
+  for_each_index(team, boxes.size(), [&](std::size_t place) {
+    const auto& v = mesh.triangles[impl_->tree.order()[place]];
+    impl_->corners[place] = {mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]};
+  });
 }
 
 TriangleTree::~TriangleTree() = default;

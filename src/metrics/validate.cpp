@@ -8,6 +8,7 @@
 #include "geometry/mesh_topology.h"
 #include "geometry/self_intersections.h"
 #include "geometry/signed_volume.h"
+#include "parallel/compressed_rows.h"
 #include "parallel/threads.h"
 
 namespace eigencrust {
@@ -286,11 +287,21 @@ TriangleMesh merge_equal_vertices(const TriangleMesh& mesh) {
 
 std::vector<std::uint32_t> triangle_components(const TriangleMesh& mesh, unsigned threads) {
   require_valid_indices(mesh, "triangle_components");
-  DisjointSets sets(mesh.triangles.size());
-  const std::vector<Side> sides = sorted_sides(mesh.triangles, mesh.vertices.size(), Threads(threads));
-  for_each_edge(sides, [&](std::span<const Side> edge) {
-    for (const Side& s : edge) sets.unite(edge[0].triangle(), s.triangle());
+  struct End {
+    std::uint32_t high, triangle;
+  };
+  auto ends = build_rows<End>(mesh.vertices.size(), [&](auto&& visit) {
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+        if (from != to) visit(std::min(from, to), End{std::max(from, to), t});
+    }
   });
+  DisjointSets sets(mesh.triangles.size());
+  sort_rows(ends, Threads(threads), [](const End& a, const End& b) { return a.high < b.high; });
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    for (std::size_t i = ends.begin[v] + 1; i < ends.begin[v + 1]; ++i)
+      if (ends.item[i].high == ends.item[i - 1].high) sets.unite(ends.item[i - 1].triangle, ends.item[i].triangle);
   return number_components(sets, mesh.triangles.size()).first;
 }
 

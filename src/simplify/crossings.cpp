@@ -4,12 +4,17 @@
 #include <algorithm>
 
 #include "geometry/self_intersections.h"
+#include "surface/clear_stars.h"
+#include "surface/fans.h"
 
 namespace eigencrust {
 
 CrossingVertices crossing_vertices(const TriangleMesh& mesh, const Threads& threads) {
-  const std::vector<std::uint8_t> degenerate = find_degenerate_triangles(mesh.vertices, mesh.triangles, threads);
-  const auto pairs = CrossingSearch(mesh.vertices, mesh.triangles, degenerate, threads).all(threads);
+  const std::vector<std::uint8_t> clear = clear_stars(mesh.vertices, SurfaceFans(mesh), threads),
+                                  degenerate = find_degenerate_triangles(mesh.vertices, mesh.triangles, clear, threads);
+  CrossingSearch search(mesh.vertices, mesh.triangles, degenerate, threads);
+  search.set_clear(clear);
+  const auto pairs = search.all(threads);
   CrossingVertices found{pairs.size(), std::vector<std::uint8_t>(mesh.vertices.size(), 0)};
   const auto mark = [&](std::uint32_t t) {
     for (const std::uint32_t v : mesh.triangles[t]) found.at[v] = 1;

@@ -41,8 +41,18 @@ class SurfaceFans {
   /// Has the vertex such an edge?
   [[nodiscard]] bool at_rim(std::uint32_t v) const {
     const std::span<const Wing> wings = wings_[v];
-    return std::any_of(wings.begin(), wings.end(),
-                       [&](const Wing& w) { return is_open(v, w.next) || is_open(v, w.last); });
+    // Where every neighbour is the first of one triangle and the last of another, which is nearly everywhere, none is.
+    bool closed = true;
+    for (const Wing& w : wings) {
+      bool first = false, last = false;
+      for (const Wing& o : wings) {
+        first |= o.next == w.last;
+        last |= o.last == w.next;
+      }
+      closed &= first & last;
+    }
+    return !closed && std::any_of(wings.begin(), wings.end(),
+                                  [&](const Wing& w) { return is_open(v, w.next) || is_open(v, w.last); });
   }
   /// For each vertex whether it is one of those.
   [[nodiscard]] std::vector<std::uint8_t> rim_vertices(const Threads& threads) const {
@@ -50,6 +60,28 @@ class SurfaceFans {
     for_each_index(threads, result.size(),
                    [&](std::size_t v) { result[v] = at_rim(static_cast<std::uint32_t>(v)) ? 1 : 0; });
     return result;
+  }
+  /// For each vertex the number of its piece, by first vertex; vertices in no triangle have one each.
+  [[nodiscard]] std::vector<std::uint32_t> pieces() const {
+    std::vector<std::uint32_t> piece(wings_.begin.size() - 1, no_index), open;
+    std::uint32_t count = 0;
+    for (std::uint32_t start = 0; start < piece.size(); ++start) {
+      if (piece[start] != no_index) continue;
+      piece[start] = count;
+      open.push_back(start);
+      while (!open.empty()) {
+        const std::uint32_t v = open.back();
+        open.pop_back();
+        for (const Wing& wing : wings_[v])
+          for (const std::uint32_t other : {wing.next, wing.last})
+            if (piece[other] == no_index) {
+              piece[other] = count;
+              open.push_back(other);
+            }
+      }
+      ++count;
+    }
+    return piece;
   }
 
  private:

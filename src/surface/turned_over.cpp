@@ -2,8 +2,7 @@
 #include "surface/turned_over.h"
 
 #include <algorithm>
-
-#include <eigencrust/validate.h>
+#include <array>
 
 #include "geometry/mesh_topology.h"
 #include "geometry/signed_volume.h"
@@ -12,13 +11,23 @@ namespace eigencrust {
 namespace {
 
 struct Piece {
-  bool met = false, closed = true, touches = false;
+  bool closed = true, touches = false;
   SignedVolume before, after;
-  Vec3 origin_before, origin_after;
 };
 
-void add_to(SignedVolume& volume, const std::vector<Vec3>& places, const Triangle& t, const Vec3& origin) {
-  volume.add(places[t[0]] - origin, places[t[1]] - origin, places[t[2]] - origin);
+/// Of each piece, about its first vertex.
+std::vector<SignedVolume> volumes(const std::vector<Vec3>& places, std::span<const Triangle> triangles,
+                                  std::span<const std::uint32_t> piece_of, std::size_t pieces) {
+  std::vector<SignedVolume> volume(pieces);
+  std::vector<std::uint32_t> first(pieces, no_index);
+  for (std::size_t i = 0; i < piece_of.size(); ++i) {
+    const std::uint32_t p = piece_of[i];
+    const auto& [a, b, c] = triangles[i];
+    if (first[p] == no_index) first[p] = a;
+    const Vec3& origin = places[first[p]];
+    volume[p].add(places[a] - origin, places[b] - origin, places[c] - origin);
+  }
+  return volume;
 }
 
 /// A body's volume may be hidden by rounding, then it is not negative; what smoothing leaves must be seen.
@@ -29,19 +38,15 @@ bool is_spoilt(const Piece& piece) {
 
 std::vector<Piece> measure_pieces(const std::vector<Vec3>& before, const TriangleMesh& mesh,
                                   std::span<const std::uint32_t> piece_of, const SurfaceFans& fans,
-                                  std::span<const std::uint8_t> at_rim) {
-  std::vector<Piece> pieces;
-  for (std::size_t i = 0; i < piece_of.size(); ++i) {
-    const Triangle& t = mesh.triangles[i];
-    if (piece_of[i] >= pieces.size()) pieces.resize(piece_of[i] + 1);
-    Piece& piece = pieces[piece_of[i]];
-    if (!piece.met) {
-      piece.met = true;
-      piece.origin_before = before[t[0]];
-      piece.origin_after = mesh.vertices[t[0]];
-    }
-    add_to(piece.before, before, t, piece.origin_before);
-    add_to(piece.after, mesh.vertices, t, piece.origin_after);
+                                  std::span<const std::uint8_t> at_rim, const Threads& threads) {
+  std::vector<Piece> pieces(piece_of.empty() ? 0 : 1 + *std::max_element(piece_of.begin(), piece_of.end()));
+  std::array<std::vector<SignedVolume>, 2> volume;
+  threads.run(volume.size(), [&](std::size_t k) {
+    volume[k] = volumes(k == 0 ? before : mesh.vertices, mesh.triangles, piece_of, pieces.size());
+  });
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    pieces[p].before = volume[0][p];
+    pieces[p].after = volume[1][p];
   }
   const std::vector<std::uint32_t> first = first_equal_vertex(mesh.vertices);
   std::vector<std::uint8_t> doubled(first.size(), 0);
@@ -57,12 +62,12 @@ std::vector<Piece> measure_pieces(const std::vector<Vec3>& before, const Triangl
 }
 
 /// Has a coarse shell shrunk so far that less is within it than within its cavities? Of open meshes nothing is said.
-bool whole_turned(const std::vector<Vec3>& before, const TriangleMesh& mesh, std::span<const std::uint8_t> at_rim) {
-  if (std::find(at_rim.begin(), at_rim.end(), 1) != at_rim.end()) return false;
+bool whole_turned(const std::vector<Piece>& pieces) {
   SignedVolume then, now;
-  for (const Triangle& t : mesh.triangles) {
-    add_to(then, before, t, before[mesh.triangles[0][0]]);
-    add_to(now, mesh.vertices, t, mesh.vertices[mesh.triangles[0][0]]);
+  for (const Piece& piece : pieces) {
+    if (!piece.closed) return false;
+    then = then + piece.before;
+    now = now + piece.after;
   }
   return then.known() >= 0 && now.known() < 0;
 }
@@ -71,12 +76,16 @@ bool whole_turned(const std::vector<Vec3>& before, const TriangleMesh& mesh, std
 
 TurnedOver take_back_turned(const std::vector<Vec3>& before, const SurfaceFans& fans, TriangleMesh& mesh,
                             const Threads& threads) {
-  const std::vector<std::uint32_t> piece_of = triangle_components(mesh, threads.size());
+  const std::vector<std::uint32_t> piece_at = fans.pieces();
+  std::vector<std::uint32_t> piece_of; // of each triangle
+  piece_of.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) piece_of.push_back(piece_at[t[0]]);
   const std::vector<std::uint8_t> at_rim = fans.rim_vertices(threads);
   std::vector<std::uint8_t> taken_back;
+  std::vector<Piece> pieces;
   for (bool changed = true; changed;) { // what goes back may come to lie on what does not
     changed = false;
-    const std::vector<Piece> pieces = measure_pieces(before, mesh, piece_of, fans, at_rim);
+    pieces = measure_pieces(before, mesh, piece_of, fans, at_rim, threads);
     taken_back.resize(pieces.size(), 0);
     for (std::size_t i = 0; i < piece_of.size(); ++i) {
       const std::uint32_t p = piece_of[i];
@@ -85,7 +94,7 @@ TurnedOver take_back_turned(const std::vector<Vec3>& before, const SurfaceFans& 
       for (const std::uint32_t v : mesh.triangles[i]) mesh.vertices[v] = before[v];
     }
   }
-  if (whole_turned(before, mesh, at_rim)) {
+  if (whole_turned(pieces)) {
     mesh.vertices = before;
     return {taken_back.size()};
   }

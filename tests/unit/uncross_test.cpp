@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <tuple>
 
 #include "counter_random.h"
 #include "geometry/self_intersections.h"
 #include "shapes.h"
+#include "surface/clear_stars.h"
 
 namespace eigencrust {
 namespace {
@@ -103,6 +105,57 @@ std::vector<CrossingSearch::Pair> ordered(std::vector<CrossingSearch::Pair> pair
   for (auto& [f, g] : pairs) std::tie(f, g) = std::minmax({f, g});
   std::sort(pairs.begin(), pairs.end());
   return pairs;
+}
+
+TEST(ClearStars, AreThoseOfASmoothSurfaceAndNotThoseAtRimsAndFolds) {
+  const auto clear_of = [](const TriangleMesh& mesh) {
+    return clear_stars(mesh.vertices, SurfaceFans(mesh), Threads(2));
+  };
+  TriangleMesh mesh = shapes::icosphere(3);
+  EXPECT_EQ(clear_of(mesh), std::vector<std::uint8_t>(mesh.vertices.size(), 1));
+  const std::uint32_t pulled = 100;
+  mesh.vertices[pulled] = -1.5 * mesh.vertices[pulled];
+  const auto clear = clear_of(mesh);
+  for (const auto& wing : SurfaceFans(mesh)[pulled]) EXPECT_EQ(clear[wing.next], 0) << "its star is folded";
+  const TriangleMesh sheet = shapes::grid(4, 4);
+  const std::vector<std::uint8_t> at_rim = SurfaceFans(sheet).rim_vertices(Threads(1)), known = clear_of(sheet);
+  for (std::size_t v = 0; v < known.size(); ++v) EXPECT_EQ(known[v], at_rim[v] ? 0 : 1) << v;
+}
+
+TEST(ClearStars, ARingThatGoesAroundTwiceIsNone) {
+  for (const int turns : {1, 2}) {
+    TriangleMesh mesh;
+    constexpr std::uint32_t n = 7;
+    mesh.vertices.emplace_back();
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const double angle = 2 * std::numbers::pi * turns * i / n;
+      mesh.vertices.push_back({std::cos(angle), std::sin(angle), 0.1 * i});
+      mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % n});
+    }
+    EXPECT_EQ(clear_stars(mesh.vertices, SurfaceFans(mesh), Threads(1))[0], turns == 1 ? 1 : 0);
+  }
+}
+
+TEST(ClearStars, HideNoCrossing) {
+  for (const double most : {0.06, 0.1, 0.6}) {
+    const TriangleMesh mesh = tangled(shapes::icosphere(4), 2, most);
+    const std::vector<std::uint8_t> sound(mesh.triangles.size(), 0),
+        clear = clear_stars(mesh.vertices, SurfaceFans(mesh), Threads(2));
+    EXPECT_GT(std::count(clear.begin(), clear.end(), 1), 10);
+    CrossingSearch search(mesh.vertices, mesh.triangles, sound, Threads(2));
+    const auto all = search.all(Threads(2));
+    EXPECT_GT(all.size(), 10u);
+    search.set_clear(clear);
+    EXPECT_EQ(search.all(Threads(2)), all);
+    EXPECT_EQ(all.size(), static_cast<std::size_t>(validate(mesh).self_intersections)) << "which looks another way";
+  }
+}
+
+TEST(SurfaceFans, PiecesAreThoseThatTrianglesJoin) {
+  const TriangleMesh mesh = shapes::joined(shapes::icosphere(1), shapes::grid(3, 3));
+  const std::vector<std::uint32_t> piece = SurfaceFans(mesh).pieces();
+  const std::size_t first = shapes::icosphere(1).vertices.size();
+  for (std::size_t v = 0; v < piece.size(); ++v) EXPECT_EQ(piece[v], v < first ? 0u : 1u);
 }
 
 TEST(CrossingSearch, FindsThePairsThatItCountsEachOnce) {
