@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/fit.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-
-#include <eigencrust/validate.h>
+#include <optional>
 
 #include "fit/place_fits.h"
 #include "geometry/nearest.h"
@@ -103,15 +101,11 @@ bool reads_more(const Surface& surface, const SampleModel& model, std::size_t v,
 /// everywhere, for curvature is read as noise only in places.
 class NoisyPieces {
  public:
-  NoisyPieces(const Surface& surface, const SampleModel& model, const Threads& threads)
-      : piece_(surface.mesh.vertices.size(), 0) {
-    const std::vector<std::uint32_t> piece_of = triangle_components(surface.mesh, threads.size());
-    for (std::size_t i = 0; i < piece_of.size(); ++i)
-      for (const std::uint32_t v : surface.mesh.triangles[i]) piece_[v] = piece_of[i];
+  NoisyPieces(const Surface& surface, const SurfaceFans& fans, const SampleModel& model) : piece_(fans.pieces()) {
     struct Counts {
       std::uint32_t all = 0, some = 0, much = 0;
     };
-    std::vector<Counts> counts(piece_of.size());
+    std::vector<Counts> counts(1 + *std::max_element(piece_.begin(), piece_.end()));
     for (std::size_t v = 0; v < piece_.size(); ++v) {
       Counts& here = counts[piece_[v]];
       ++here.all;
@@ -139,7 +133,7 @@ std::vector<float> noise_at_vertices(const Surface& surface, const SurfaceFans& 
   std::size_t quiet = 0;
   while (quiet < n && !reads_more(surface, model, quiet, some_noise_in_spacings)) ++quiet;
   if (quiet == n) return noise;
-  const NoisyPieces pieces(surface, model, threads);
+  const NoisyPieces pieces(surface, fans, model);
   for_each_index(threads, n, [&](std::size_t v) {
     if (reads_more(surface, model, v, pieces.least_noise(v))) noise[v] = model.noise[surface.sample_of[v]];
   });
@@ -156,23 +150,42 @@ std::vector<float> noise_at_vertices(const Surface& surface, const SurfaceFans& 
   return noise;
 }
 
+/// A symmetric matrix, by its six entries.
+struct Symmetric {
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+
+  /// + w n nᵀ
+  void add(double w, const Vec3& n) {
+    const Vec3 m = w * n;
+    xx += m.x * n.x;
+    xy += m.x * n.y;
+    xz += m.x * n.z;
+    yy += m.y * n.y;
+    yz += m.y * n.z;
+    zz += m.z * n.z;
+  }
+  [[nodiscard]] Vec3 operator*(const Vec3& v) const {
+    return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
+  }
+};
+
 /// From the mean of the ways to some planes the way to where they intersect, by least squares: to the edge between two.
 /// A direction that few of the planes lie across is stretched to twice its length at most; of three eigenvalues that
 /// add up to 1 the second is 1/2 at most, so that only the direction of the first is stretched less. Where the two are
 /// about the same that makes no difference, and else few steps of the power method find it.
-/// \param normals mean of n nᵀ \param normal a start
-Vec3 towards_all(const Vec3& mean, const Eigen::Matrix3d& normals, const Vec3& normal) {
+/// \param normals weighted sum of n nᵀ \param total of the weights \param normal a start
+Vec3 towards_all(const Vec3& mean, const Symmetric& normals, double total, const Vec3& normal) {
   constexpr int steps = 6;
   constexpr double most_stretched = 2;
-  Eigen::Vector3d first(normal.x, normal.y, normal.z);
-  double largest = 0;
+  Vec3 first = normal, last;
   for (int step = 0; step < steps; ++step) {
-    first = (normals * first).eval();
-    largest = first.norm();
-    if (!(largest > 0)) return mean;
-    first /= largest;
+    last = first;
+    first = (1 / total) * (normals * first); // never longer, and hardly shorter than a third
   }
-  const Vec3 direction{first[0], first[1], first[2]};
+  const double length = norm(first);
+  if (!(length > 0)) return mean;
+  const Vec3 direction = (1 / length) * first;
+  const double largest = length / norm(last);
   return most_stretched * mean -
          (most_stretched - 1 / std::max(largest, 1 / most_stretched)) * dot(direction, mean) * direction;
 }
@@ -189,15 +202,23 @@ class SurfaceFit {
         threads_(threads),
         fans_(fans),
         position_(smoothed(surface.mesh.vertices, fans, shares_of_steps(), threads)),
-        normal_(averaged_normals(position_, fans, threads)),
         trust_(position_.size(), 0),
         sigma_(position_.size(), 0) {
+    const std::vector<Vec3> smooth = position_;
     for (std::size_t v = 0; v < position_.size(); ++v)
       if (noise_[v] < 0) position_[v] = surface.mesh.vertices[v]; // it stays, but says which side its sample is on
+    std::optional<PointTree> tree;
+    threads.run(2, [&](std::size_t k) { // one thread builds the tree
+      if (k == 0)
+        tree.emplace(position_);
+      else
+        normal_ = averaged_normals(smooth, fans, threads);
+    });
+    vertex_of_ = vertices_of_samples(*tree);
   }
 
   std::vector<Vec3> run() {
-    ClusterPyramid clusters(fans_, position_, normal_, samples_, vertices_of_samples(), threads_);
+    ClusterPyramid clusters(fans_, position_, normal_, samples_, vertex_of_, threads_);
     for (const FitEffort& effort : efforts) {
       const FitPlaces places = make_places(clusters);
       if (chosen_.width.empty()) {
@@ -205,7 +226,7 @@ class SurfaceFit {
         find_usual_noise(clusters);
       }
       move(clusters, fits_of_widths(places, clusters, chosen_.width, effort, threads_));
-      clusters.set_normals(normal_);
+      clusters.set_normals(normal_, threads_);
     }
     std::vector<Vec3> result = surface_.mesh.vertices;
     for (std::size_t v = 0; v < result.size(); ++v)
@@ -234,10 +255,9 @@ class SurfaceFit {
   }
 
   /// Samples are on the side of the vertex next to them; those farther off than noise explains are on none.
-  [[nodiscard]] std::vector<std::uint32_t> vertices_of_samples() const {
+  [[nodiscard]] std::vector<std::uint32_t> vertices_of_samples(const PointTree& tree) const {
     std::vector<std::uint32_t> vertex_of(samples_.size(), ClusterPyramid::no_vertex);
     for (std::uint32_t v = 0; v < position_.size(); ++v) vertex_of[surface_.sample_of[v].value] = v;
-    const PointTree tree(position_);
     for_each_index(
         threads_, samples_.size(),
         [&](std::size_t s) {
@@ -299,59 +319,67 @@ class SurfaceFit {
     return std::min(FitPlaces::level + levels_of_usual_noise, clusters.levels() - 1);
   }
 
-  /// Each vertex to where the fits around it meet.
+  /// Each vertex to where the fits around it meet. Those of one place have the same fits around.
   void move(const ClusterPyramid& clusters, const PlaceFits& fits) {
-    const std::vector<std::uint32_t>& place_of = clusters[0].parent;
     const ClusterLevel &places = clusters[FitPlaces::level], &wider = clusters[FitPlaces::level + 1];
-    for_each_index(
-        threads_, position_.size(),
-        [&](std::size_t v) {
-          if (noise_[v] < 0 || !(squared_norm(normal_[v]) > 0)) return;
-          const std::uint32_t own = place_of[v];
-          double total = 0, squares = 0, noise = 0, error = 0;
-          Vec3 way, normal;
-          Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
-          const double unit = std::max(noise_at(v), least_unit_in_spacings * spacing_at(v));
-          const double radius = blend_reach * chosen_.width[own] * unit;
-          const auto take = [&](std::uint32_t p) {
-            const LocalQuadric& fit = fits.fit[p];
-            if (!(fit.variance > 0) || !(dot(fit.normal, normal_[v]) > same_side)) return;
-            const double nearness = 1 - squared_norm(fit.origin - position_[v]) / (radius * radius);
-            if (!(nearness > 0)) return;
-            // Fits across an edge fit badly: they leave the word to those beside it.
-            const double misfit = fit.noise_variance + least_misfit * unit * unit;
-            const double w = nearness * nearness / (fit.variance * misfit * misfit);
-            // Along the normal of the fit: along another one what lies beside an edge would slide beyond it.
-            const auto [ahead, across] = fit.foot(position_[v]);
-            way = way + w * ahead * across;
-            const Eigen::Vector3d n(across.x, across.y, across.z);
-            normals += w * n * n.transpose();
-            squares += w * ahead * ahead;
-            noise += w * fit.noise_variance;
-            error += w * fit.noise_variance * fit.variance;
-            normal = normal + w * across;
-            total += w;
-          };
-          if (const std::uint32_t above = places.parent[own]; fits.wide[above]) {
-            take(wider.seed[above]);
-            for (const std::uint32_t c : wider.neighbours[above]) take(wider.seed[c]);
-          } else {
-            take(own);
-            for (const std::uint32_t p : places.neighbours[own]) take(p);
-          }
-          if (!(total > 0)) return;
-          const Vec3 mean = (1 / total) * way;
-          if (const double length = norm(normal); length > 0) normal_[v] = (1 / length) * normal;
-          position_[v] = position_[v] + towards_all(mean, normals / total, normal_[v]);
-          // How far the fits differ shows how far off they are where the shape is finer or sharper than them.
-          const double apart = squares / total - squared_norm(mean);
-          const double usual_here = usual_[clusters.ancestor(FitPlaces::level, own, coarse(clusters))],
-                       shape = (noise_[v] > 0 ? shape_left_beside_noise : shape_left) * spacing_at(v);
-          const double variance = std::min(noise / total, usual_here * usual_here) - shape * shape;
-          sigma_[v] = std::sqrt(std::max(0.0, variance));
-          trust_[v] = variance > 0 ? variance / (variance + std::max(0.0, apart - error / total)) : 0;
-        },
-        costly_block);
+    constexpr std::size_t block = 256;
+    for_blocks(threads_, places.cluster.size(), block, [&](std::size_t begin, std::size_t end, std::size_t) {
+      std::vector<const LocalQuadric*> around;
+      const auto take = [&](std::uint32_t p) {
+        if (fits.fit[p].variance > 0) around.push_back(&fits.fit[p]);
+      };
+      for (std::size_t p = begin; p < end; ++p) {
+        around.clear();
+        if (const std::uint32_t above = places.parent[p]; fits.wide[above]) {
+          take(wider.seed[above]);
+          for (const std::uint32_t c : wider.neighbours[above]) take(wider.seed[c]);
+        } else {
+          take(static_cast<std::uint32_t>(p));
+          for (const std::uint32_t q : places.neighbours[p]) take(q);
+        }
+        if (around.empty()) continue;
+        const double usual =
+            usual_[clusters.ancestor(FitPlaces::level, static_cast<std::uint32_t>(p), coarse(clusters))];
+        for (const std::uint32_t v : places.children[p]) move(v, around, chosen_.width[p], usual);
+      }
+    });
+  }
+
+  /// \param width of the place, in its units \param usual deviation of the noise around
+  void move(std::uint32_t v, std::span<const LocalQuadric* const> around, double width, double usual) {
+    if (noise_[v] < 0 || !(squared_norm(normal_[v]) > 0)) return;
+    double total = 0, squares = 0, noise = 0, error = 0;
+    Vec3 way, normal;
+    Symmetric normals;
+    const double unit = std::max(noise_at(v), least_unit_in_spacings * spacing_at(v));
+    const double radius = blend_reach * width * unit, flat = 1 / (radius * radius);
+    for (const LocalQuadric* const one : around) {
+      const LocalQuadric& fit = *one;
+      const double nearness = 1 - squared_norm(fit.origin - position_[v]) * flat;
+      if (!(nearness > 0) || !(dot(fit.normal, normal_[v]) > same_side)) continue;
+      // Fits across an edge fit badly: they leave the word to those beside it.
+      const double misfit = fit.noise_variance + least_misfit * unit * unit;
+      const double w = nearness * nearness / (fit.variance * misfit * misfit);
+      // Along the normal of the fit: along another one what lies beside an edge would slide beyond it.
+      const auto [ahead, across] = fit.foot(position_[v]);
+      way = way + w * ahead * across;
+      normals.add(w, across);
+      squares += w * ahead * ahead;
+      noise += w * fit.noise_variance;
+      error += w * fit.noise_variance * fit.variance;
+      normal = normal + w * across;
+      total += w;
+    }
+    if (!(total > 0)) return;
+    const Vec3 mean = (1 / total) * way;
+    if (const double length = norm(normal); length > 0) normal_[v] = (1 / length) * normal;
+    position_[v] = position_[v] + towards_all(mean, normals, total, normal_[v]);
+    // How far the fits differ shows how far off they are where the shape is finer or sharper than them.
+    const double apart = squares / total - squared_norm(mean),
+                 shape = (noise_[v] > 0 ? shape_left_beside_noise : shape_left) * spacing_at(v);
+    const double variance = std::min(noise / total, usual * usual) - shape * shape;
+    sigma_[v] = std::sqrt(std::max(0.0, variance));
+    trust_[v] = variance > 0 ? variance / (variance + std::max(0.0, apart - error / total)) : 0;
   }
 
   const Surface& surface_;
@@ -360,7 +388,8 @@ class SurfaceFit {
   std::span<const float> noise_;
   const Threads& threads_;
   const SurfaceFans& fans_;
-  std::vector<Vec3> position_, normal_; ///< of each vertex
+  std::vector<Vec3> position_, normal_;  ///< of each vertex
+  std::vector<std::uint32_t> vertex_of_; ///< of each sample
   std::vector<double> trust_; ///< in the fit, the rest is the sample's; 1: its error is nothing beside the noise
   std::vector<double> sigma_; ///< of the noise that the fits find
   ChosenWidths chosen_;

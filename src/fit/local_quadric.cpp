@@ -1,26 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/local_quadric.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 namespace eigencrust {
-
-Vec3 LocalQuadric::gradient(double x, double y) const {
-  const auto& h = height;
-  return normal - (h[1] + 2 * h[3] * x + h[4] * y) * u - (h[2] + 2 * h[5] * y + h[4] * x) * v;
-}
-
-LocalQuadric::Foot LocalQuadric::foot(const Vec3& at) const {
-  const Vec3 d = at - origin;
-  const double x = dot(u, d), y = dot(v, d);
-  const auto& h = height;
-  const double z = h[0] + x * (h[1] + x * h[3] + y * h[4]) + y * (h[2] + y * h[5]);
-  const Vec3 slope = gradient(x, y);
-  const double shorten = 1 / norm(slope);
-  return {shorten * (z - sag - dot(normal, d)), shorten * slope};
-}
 
 double LocalQuadric::offset(const Vec3& at, const Vec3& direction) const {
   constexpr double least_cosine = 0.3; // more askew, the foot would be far off
@@ -28,65 +12,159 @@ double LocalQuadric::offset(const Vec3& at, const Vec3& direction) const {
   return ahead / std::max(least_cosine, dot(across, direction));
 }
 
-QuadricFit::QuadricFit(const Vec3& origin, const Vec3& normal, double width) {
-  fit_.origin = origin;
-  fit_.normal = normal;
+QuadricFit::QuadricFit(const Vec3& origin, const Vec3& normal, std::span<const double> widths) : count_(widths.size()) {
+  frame_.origin = origin;
+  frame_.normal = normal;
+  const double largest = widths.back();
   const Vec3 across = cross(normal, std::fabs(normal.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
-  fit_.u = (1 / (norm(across) * width)) * across;
-  fit_.v = cross(normal, fit_.u);
+  frame_.u = (1 / (norm(across) * largest)) * across;
+  frame_.v = cross(normal, frame_.u);
+  for (std::size_t k = 0; k < count_; ++k) {
+    Width& width = width_[k];
+    width.shrink = largest / widths[k];
+    width.row0 = width.row1 = width.sum = 0;
+    width.row2 = width.row3 = 0;
+    width.row4 = width.row5 = width.right = 0;
+  }
 }
 
-void QuadricFit::add(const SampleCluster& samples) {
-  const Vec3 d = samples.mean - fit_.origin;
-  const double x = dot(fit_.u, d), y = dot(fit_.v, d), z = dot(fit_.normal, d);
-  const double nearness = 1 - x * x - y * y;
-  if (!(nearness > 0) || !(samples.count > 0)) return;
-  const double w = samples.count * nearness * nearness;
-  std::array<double, unknowns> b{1, x, y, x * x, x * y, y * y};
-  double square = z * z;
+inline QuadricFit::Row QuadricFit::row_of(const SampleCluster& samples) const {
+  const Vec3 d = samples.mean - frame_.origin;
+  const double x = dot(frame_.u, d), y = dot(frame_.v, d), z = dot(frame_.normal, d);
+  const double xx = x * x, yy = y * y;
+  Row row{{}, z, z * z, xx + yy, samples.count};
   if (samples.count > 1) {
-    b[3] += samples.covariance(fit_.u, fit_.u);
-    b[4] += samples.covariance(fit_.u, fit_.v);
-    b[5] += samples.covariance(fit_.v, fit_.v);
-    square += samples.covariance(fit_.normal, fit_.normal);
+    row.basis << 1, x, y, xx + samples.covariance(frame_.u, frame_.u), x * y + samples.covariance(frame_.u, frame_.v),
+        yy + samples.covariance(frame_.v, frame_.v);
+    row.height_square += samples.covariance(frame_.normal, frame_.normal);
+  } else {
+    row.basis << 1, x, y, xx, x * y, yy;
   }
-  std::size_t k = 0;
-  for (std::size_t i = 0; i < unknowns; ++i) {
-    const double wb = w * b[i];
-    for (std::size_t j = 0; j <= i; ++j) moments_[k++] += wb * b[j];
-    right_[i] += wb * z;
-  }
-  squares_ += w * square;
-  weight_squares_ += w * nearness * nearness;
+  return row;
 }
 
-std::optional<LocalQuadric> QuadricFit::solve(double most_noise) const {
-  using Matrix = Eigen::Matrix<double, unknowns, unknowns>;
-  using Vector = Eigen::Matrix<double, unknowns, 1>;
+inline void QuadricFit::Width::add(const Row& row) {
+  const double nearness = 1 - row.square * (shrink * shrink);
+  if (!(nearness > 0)) return;
+  const double squared = nearness * nearness, w = row.count * squared;
+  const Basis& b = row.basis;
+  row0 += w * b.head<2>();
+  row1 += w * b[1] * b.head<2>();
+  row2 += w * b[2] * b.head<4>();
+  row3 += w * b[3] * b.head<4>();
+  row4 += w * b[4] * b;
+  row5 += w * b[5] * b;
+  right += w * row.height * b;
+  sum += w * Eigen::Array<double, 2, 1>(row.height_square, squared);
+}
+
+void QuadricFit::add(std::span<const SampleCluster* const> clusters) {
+  // Some rows are written before they are read: what was just written in parts would have to be waited for.
+  constexpr std::size_t batch = 64;
+  std::array<Row, batch> rows;
+  while (!clusters.empty()) {
+    const std::size_t look = std::min(batch, clusters.size());
+    std::size_t count = 0;
+    for (const SampleCluster* samples : clusters.first(look)) {
+      rows[count] = row_of(*samples);
+      count += rows[count].square < 1 && samples->count > 0;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = 0; k < count_; ++k) width_[k].add(rows[i]);
+    clusters = clusters.subspan(look);
+  }
+}
+
+namespace {
+
+/// Cholesky's factors L D Lᵀ of a symmetric matrix, given and kept as its lower triangle row by row.
+template <std::size_t n>
+class Factors {
+ public:
+  using Vector = std::array<double, n>;
+
+  /// \return is the matrix positive definite?
+  bool factor(const std::array<double, n*(n + 1) / 2>& matrix) {
+    l_ = matrix;
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        double sum = at(i, j);
+        for (std::size_t m = 0; m < j; ++m) sum -= scaled_[m] * at(j, m);
+        scaled_[j] = sum; // L D
+      }
+      double pivot = at(i, i);
+      for (std::size_t j = 0; j < i; ++j) {
+        const double l = scaled_[j] * inverse_[j];
+        pivot -= scaled_[j] * l;
+        at(i, j) = l;
+      }
+      if (!(pivot > 0)) return false;
+      inverse_[i] = 1 / pivot;
+    }
+    return true;
+  }
+  /// L⁻¹ right.
+  [[nodiscard]] Vector half_solved(Vector right) const {
+    for (std::size_t i = 1; i < n; ++i)
+      for (std::size_t j = 0; j < i; ++j) right[i] -= at(i, j) * right[j];
+    return right;
+  }
+  /// The square of what half_solved() gave, which is right · A⁻¹ right.
+  [[nodiscard]] double square(const Vector& half) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < n; ++i) sum += half[i] * half[i] * inverse_[i];
+    return sum;
+  }
+  [[nodiscard]] Vector solved(Vector half) const {
+    for (std::size_t i = n; i-- > 0;) {
+      half[i] *= inverse_[i];
+      for (std::size_t j = i + 1; j < n; ++j) half[i] -= at(j, i) * half[j];
+    }
+    return half;
+  }
+
+ private:
+  [[nodiscard]] double at(std::size_t i, std::size_t j) const { return l_[i * (i + 1) / 2 + j]; }
+  double& at(std::size_t i, std::size_t j) { return l_[i * (i + 1) / 2 + j]; }
+  std::array<double, n*(n + 1) / 2> l_; ///< below the diagonal
+  Vector inverse_;                      ///< of D
+  Vector scaled_;                       ///< the row that is looked at, of L D
+};
+
+} // namespace
+
+std::optional<LocalQuadric> QuadricFit::solve(double most_noise, std::size_t width) const {
   // As many as there are unknowns, and some that say how well they fit.
   constexpr double least_samples = 10;
   constexpr double ridge = 1e-9; // of the weight: samples in a row determine no quadric, but should not blow up either
-  const double total = moments_[0];
-  if (!(total * total > least_samples * weight_squares_)) return std::nullopt;
-  Matrix moments;
-  std::size_t k = 0;
-  for (Eigen::Index i = 0; i < moments.rows(); ++i)
-    for (Eigen::Index j = 0; j <= i; ++j) moments(i, j) = moments(j, i) = moments_[k++];
-  const Eigen::LLT<Matrix> solver(moments + ridge * total * Matrix::Identity());
-  if (solver.info() != Eigen::Success) return std::nullopt;
-  const Vector right(right_.data()), height = solver.solve(right);
-  LocalQuadric fit = fit_;
-  std::copy_n(height.data(), unknowns, fit.height.begin());
+  const Width& w = width_[width];
+  const double total = w.row0[0], weight_squares = w.sum[1], shrink = w.shrink;
+  if (!(total * total > least_samples * weight_squares)) return std::nullopt;
+  const double square = shrink * shrink;
+  const std::array<double, unknowns> unit{1, shrink, shrink, square, square, square}; // of the basis of this width
+  const std::array<const double*, unknowns> rows{w.row0.data(), w.row1.data(), w.row2.data(),
+                                                 w.row3.data(), w.row4.data(), w.row5.data()};
+  std::array<double, unknowns*(unknowns + 1) / 2> moments;
+  std::array<double, unknowns> right;
+  for (std::size_t i = 0, k = 0; i < unknowns; ++i) {
+    for (std::size_t j = 0; j <= i; ++j, ++k) moments[k] = unit[i] * unit[j] * rows[i][j];
+    moments[k - 1] += ridge * total;
+    right[i] = unit[i] * w.right[static_cast<Eigen::Index>(i)];
+  }
+  Factors<unknowns> solver;
+  if (!solver.factor(moments)) return std::nullopt;
+  const auto half = solver.half_solved(right);
+  LocalQuadric fit = frame_;
+  fit.u = shrink * fit.u;
+  fit.v = shrink * fit.v;
+  fit.height = solver.solved(half);
   // The mean of samples with weights w has the variance Σ w² / (Σ w)²; as many times 1 / Σ w is what a fit has.
-  const double share = weight_squares_ / total;
+  const double share = weight_squares / total;
   const double freedom = total - static_cast<double>(unknowns) * share;
-  fit.noise_variance = freedom > 0 ? std::max(0.0, squares_ - height.dot(right)) / freedom : 0;
+  fit.noise_variance = freedom > 0 ? std::max(0.0, w.sum[0] - solver.square(half)) / freedom : 0;
   const double bend = std::min(fit.noise_variance, most_noise * most_noise) * squared_norm(fit.u);
-  fit.sag = bend * (height[3] + height[5]);
-  Vector functional = Vector::Zero();
-  functional[0] = 1;
-  functional[3] = functional[5] = -bend;
-  fit.variance = functional.dot(solver.solve(functional)) * share;
+  fit.sag = bend * (fit.height[3] + fit.height[5]);
+  fit.variance = solver.square(solver.half_solved({1, 0, 0, -bend, 0, -bend})) * share;
   return fit;
 }
 

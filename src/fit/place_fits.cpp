@@ -5,8 +5,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <numbers>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "samples/place_model.h"
 
@@ -14,7 +18,7 @@ namespace eigencrust {
 namespace {
 
 // In units of the larger of σ and 0.7 spacings; each has twice the samples of the one before.
-constexpr std::array<double, 7> widths{2.83, 4, 5.66, 8, 11.3, 16, 22.6};
+constexpr std::array<double, QuadricFit::most_widths> widths{2.83, 4, 5.66, 8, 11.3, 16, 22.6};
 // Cosine: samples of one side.
 constexpr double same_side = 0.5;
 // Up to so many times the noise that the model knows of is noise; what is more about a narrow fit is shape.
@@ -34,65 +38,95 @@ constexpr int averaging_rounds = 2;
 constexpr std::size_t places_per_block = 512;
 
 /// Clusters around a place, found along the surface. The way leads over clusters of the next level, which are fewer.
+/// Whether one is new or near is anybody's guess: all are written down, and the next overwrites those that are not.
 class Neighbourhood {
  public:
-  Neighbourhood() : slot_(slots) {}
-
+  /// Those of the level, in the ball, that look the same way; valid until the next call.
   /// \param start one of the level above, which is always one of those whose children are looked at
-  /// \return of the level, those in the ball that look the same way; valid until the next call
-  const std::vector<std::uint32_t>& find(const ClusterPyramid& samples, std::size_t level, std::uint32_t start,
-                                         const Vec3& origin, const Vec3& normal, double radius) {
-    const ClusterLevel &fine = samples[level], &above = samples[level + 1];
-    walk(above, start, origin, normal, radius);
-    found_.clear();
-    for (const std::uint32_t way : way_)
-      for (const std::uint32_t c : above.children[way])
-        if (squared_norm(fine.cluster[c].mean - origin) < radius * radius && dot(fine.normal[c], normal) > same_side)
-          found_.push_back(c);
-    return found_;
+  std::span<const SampleCluster* const> find(const ClusterPyramid& samples, std::size_t level, std::uint32_t start,
+                                             const Vec3& origin, const Vec3& normal, double radius) {
+    const ClusterLevel& above = samples[level + 1];
+    const std::size_t ways = walk(above, level, start, origin, normal, radius);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < ways; ++i) {
+      const std::size_t begin = above.children.begin[way_[i]], end = above.children.begin[way_[i] + 1];
+      if (found_.size() < count + (end - begin)) found_.resize(2 * (count + (end - begin)));
+      for (std::size_t k = begin; k < end; ++k) {
+        const ClusterLevel::Child& child = above.child[k];
+        found_[count] = &child.cluster;
+        const bool near =
+            squared_norm(child.cluster.mean - origin)<radius * radius, same = dot(child.normal, normal)> same_side;
+        count += near & same;
+      }
+    }
+    return std::span(found_).first(count);
   }
 
  private:
-  static constexpr std::size_t slots = 4096, most = 400; // a bound on the work
+  static constexpr std::size_t most = 400; // a bound on the work
 
-  void walk(const ClusterLevel& level, std::uint32_t start, const Vec3& origin, const Vec3& normal, double radius) {
+  /// \return how many there are
+  std::size_t walk(const ClusterLevel& level, std::size_t below, std::uint32_t start, const Vec3& origin,
+                   const Vec3& normal, double radius) {
+    std::vector<std::uint64_t>& seen_in = seen_in_[below];
+    seen_in.resize(level.place.size(), 0);
     ++round_;
-    way_.assign(1, start);
-    is_new(start);
-    std::size_t seen = 1;
-    for (std::size_t i = 0; i < way_.size(); ++i)
+    way_[0] = start;
+    seen_in[start] = round_;
+    std::size_t ways = 1, seen = 1;
+    for (std::size_t i = 0; i < ways; ++i) {
+      std::size_t fresh = 0;
       for (const std::uint32_t c : level.neighbours[way_[i]]) {
-        if (seen >= most || !is_new(c)) continue;
-        ++seen;
-        const double reach = radius + level.extent[c];
-        if (dot(level.normal[c], normal) > same_side && squared_norm(level.cluster[c].mean - origin) < reach * reach)
-          way_.push_back(c);
+        fresh_[fresh] = c;
+        fresh += seen_in[c] != round_ && seen + fresh < most;
+        seen_in[c] = round_;
       }
-  }
-
-  bool is_new(std::uint32_t c) {
-    constexpr std::uint32_t golden = 2654435769U; // Knuth 1973, 6.4
-    for (std::size_t at = (c * golden) >> 20;; at = (at + 1) % slots) {
-      if (slot_[at].round != round_) {
-        slot_[at] = {round_, c};
-        return true;
+      seen += fresh;
+      for (std::size_t k = 0; k < fresh; ++k) {
+        const ClusterLevel::Place& place = level.place[fresh_[k]];
+        const double reach = radius + place.extent;
+        const bool same = dot(place.normal, normal) > same_side,
+                   near = squared_norm(place.mean - origin) < reach * reach;
+        way_[ways] = fresh_[k];
+        ways += same & near;
       }
-      if (slot_[at].item == c) return false;
     }
+    return ways;
   }
 
-  struct Slot {
-    std::uint32_t round = 0, item = 0;
-  };
-  std::vector<Slot> slot_;
-  std::vector<std::uint32_t> way_, found_;
-  std::uint32_t round_ = 0;
+  std::array<std::vector<std::uint64_t>, ClusterPyramid::most_levels> seen_in_; ///< of each cluster the last round
+  std::uint64_t round_ = 0;
+  std::array<std::uint32_t, most + 1> way_, fresh_;
+  std::vector<const SampleCluster*> found_;
+};
+
+/// One for each thread, which go from block to block: they are as large as the pyramid.
+class Neighbourhoods {
+ public:
+  std::unique_ptr<Neighbourhood> take() {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) return std::make_unique<Neighbourhood>();
+    std::unique_ptr<Neighbourhood> last = std::move(free_.back());
+    free_.pop_back();
+    return last;
+  }
+  void give_back(std::unique_ptr<Neighbourhood> used) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(used));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Neighbourhood>> free_;
 };
 
 class PlaceFitter {
  public:
-  PlaceFitter(const FitPlaces& places, const ClusterPyramid& samples, double enough)
-      : places_(places), samples_(samples), enough_(enough) {}
+  PlaceFitter(const FitPlaces& places, const ClusterPyramid& samples, double enough, Neighbourhoods& all)
+      : places_(places), samples_(samples), enough_(enough), all_(all), around_(all.take()) {}
+  ~PlaceFitter() { all_.give_back(std::move(around_)); }
+  PlaceFitter(const PlaceFitter&) = delete;
+  PlaceFitter& operator=(const PlaceFitter&) = delete;
 
   std::optional<LocalQuadric> fit(std::size_t p, double width) { return fits(p, std::span(&width, 1))[0]; }
 
@@ -101,18 +135,16 @@ class PlaceFitter {
     const Vec3 &origin = places_.position[p], &normal = places_.normal[p];
     const auto radius = [&](std::size_t k) { return width[k] * places_.unit[p]; };
     const std::size_t l = level_for(radius(0) / places_.spacing[p]);
-    fits_.clear();
-    fits_.emplace_back(origin, normal, radius(0));
+    radius_.assign(1, radius(0));
     for (std::size_t k = 1; k < width.size() && level_for(radius(k) / places_.spacing[p]) == l; ++k)
-      fits_.emplace_back(origin, normal, radius(k));
+      radius_.push_back(radius(k));
+    QuadricFit fit(origin, normal, radius_);
     // Where the width ends samples are still as thick as in the middle.
-    const double reach = std::hypot(radius(fits_.size() - 1), static_cast<double>(noise_bound) * places_.noise[p]);
-    for (const std::uint32_t c :
-         around_.find(samples_, l, samples_.ancestor(FitPlaces::level, static_cast<std::uint32_t>(p), l + 1), origin,
-                      normal, reach))
-      for (QuadricFit& fit : fits_) fit.add(samples_[l].cluster[c]);
+    const double reach = std::hypot(radius_.back(), static_cast<double>(noise_bound) * places_.noise[p]);
+    const std::uint32_t start = samples_.ancestor(FitPlaces::level, static_cast<std::uint32_t>(p), l + 1);
+    fit.add(around_->find(samples_, l, start, origin, normal, reach));
     solved_.clear();
-    for (const QuadricFit& fit : fits_) solved_.push_back(fit.solve(most_noise(p)));
+    for (std::size_t k = 0; k < radius_.size(); ++k) solved_.push_back(fit.solve(most_noise(p), k));
     return solved_;
   }
 
@@ -131,8 +163,9 @@ class PlaceFitter {
   const FitPlaces& places_;
   const ClusterPyramid& samples_;
   double enough_;
-  Neighbourhood around_;
-  std::vector<QuadricFit> fits_;
+  Neighbourhoods& all_;
+  std::unique_ptr<Neighbourhood> around_;
+  std::vector<double> radius_;
   std::vector<std::optional<LocalQuadric>> solved_;
 };
 
@@ -164,7 +197,7 @@ class WidthChoice {
       if (k == 0) find_noise();
       weigh(k);
     }
-    for (std::size_t p = 0; p < choice_.size(); ++p) choice_[p] = least(p);
+    for_each_index(threads_, choice_.size(), [&](std::size_t p) { choice_[p] = least(p); });
     for (int round = 0; round < averaging_rounds; ++round) choice_ = pooled(choice_);
     for (double& c : choice_) c = c < 0 ? 0 : widths[0] * std::exp2(c / 2);
     return {std::move(choice_), std::move(narrowest_)};
@@ -180,7 +213,7 @@ class WidthChoice {
   /// Fits of this width, and of the next ones where they cost little more.
   void fit(std::size_t k) {
     for_blocks(threads_, running_.size(), places_per_block, [&](std::size_t begin, std::size_t end, std::size_t) {
-      PlaceFitter fitter(places_, samples_, enough_to_choose);
+      PlaceFitter fitter(places_, samples_, enough_to_choose, around_);
       for (std::size_t p = begin; p < end; ++p) {
         if (!running_[p] || fitted_[p] > k) continue;
         for (const auto& found : fitter.fits(p, std::span(widths).subspan(k))) {
@@ -207,17 +240,17 @@ class WidthChoice {
     const double less_biased = std::pow(widths[j] / widths[k], 4);
     const auto& [offset, variance, unused] = levels_[k];
     std::vector<double> apart(offset.size(), -1), explained(offset.size(), -1);
-    for (std::size_t p = 0; p < offset.size(); ++p) {
-      if (variance[p] == 0 || levels_[j].variance[p] == 0) continue;
+    for_each_index(threads_, offset.size(), [&](std::size_t p) {
+      if (variance[p] == 0 || levels_[j].variance[p] == 0) return;
       apart[p] = std::fabs(static_cast<double>(offset[p] - levels_[j].offset[p]));
       explained[p] = noise_[p] * std::max(0.0, static_cast<double>(levels_[j].variance[p] - variance[p]));
-    }
+    });
     if (k > 0) {
       apart = pooled(apart);
       explained = pooled(explained);
     }
-    for (std::size_t p = 0; p < offset.size(); ++p) {
-      if (!running_[p] || variance[p] == 0) continue;
+    for_each_index(threads_, offset.size(), [&](std::size_t p) {
+      if (!running_[p] || variance[p] == 0) return;
       if (k > 0 && apart[p] >= 0) {
         // Of normal deviates the mean square is pi / 2 of the squared mean; that is surer where some are wild.
         const double square = std::numbers::pi / 2 * apart[p] * apart[p] - explained[p];
@@ -228,7 +261,7 @@ class WidthChoice {
       for (const Level& level : levels_) // those to come have none yet
         if (level.risk[p] >= 0) best = std::min(best, static_cast<double>(level.risk[p]));
       running_[p] = static_cast<double>(levels_[k].risk[p]) < hopeless * best;
-    }
+    });
   }
 
   /// Means over the places and their neighbours on the same side of what is not negative; -1: nothing.
@@ -271,6 +304,7 @@ class WidthChoice {
   const FitPlaces& places_;
   const ClusterPyramid& samples_;
   const Threads& threads_;
+  Neighbourhoods around_;
   std::vector<std::uint8_t> running_; ///< places whose risk may still fall
   std::vector<double> noise_;         ///< variance; negative: unknown
   std::vector<double> narrowest_;     ///< the same, of each place's narrowest fit alone
@@ -305,8 +339,9 @@ PlaceFits fits_of_widths(const FitPlaces& places, const ClusterPyramid& samples,
   PlaceFits fits{std::vector<LocalQuadric>(places.position.size()), wide_clusters(places, samples, width, effort.wide)};
   const std::vector<std::uint32_t>&parent = samples[FitPlaces::level].parent,
         &seed = samples[FitPlaces::level + 1].seed;
+  Neighbourhoods around;
   for_blocks(threads, fits.fit.size(), places_per_block, [&](std::size_t begin, std::size_t end, std::size_t) {
-    PlaceFitter fitter(places, samples, effort.clusters);
+    PlaceFitter fitter(places, samples, effort.clusters, around);
     for (std::size_t p = begin; p < end; ++p) {
       if (!(width[p] > 0) || !(squared_norm(places.normal[p]) > 0)) continue;
       if (fits.wide[parent[p]] && seed[parent[p]] != p) continue;

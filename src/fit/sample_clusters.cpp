@@ -11,12 +11,13 @@ constexpr double same_way = 0.8;
 // Fewer clusters need no coarser ones.
 constexpr std::size_t few = 64, least_levels = 3;
 
-std::vector<Vec3> summed_normals(const ClusterLevel& fine, std::size_t count) {
-  std::vector<Vec3> normal(count);
-  for (std::size_t c = 0; c < fine.parent.size(); ++c)
-    normal[fine.parent[c]] = normal[fine.parent[c]] + fine.cluster[c].count * fine.normal[c];
-  for (std::size_t p = 0; p < count; ++p)
+std::vector<Vec3> summed_normals(const ClusterLevel& fine, const CompressedRows<std::uint32_t>& children,
+                                 const Threads& threads) {
+  std::vector<Vec3> normal(children.begin.size() - 1);
+  for_each_index(threads, normal.size(), [&](std::size_t p) {
+    for (const std::uint32_t c : children[p]) normal[p] = normal[p] + fine.cluster[c].count * fine.normal[c];
     if (const double length = norm(normal[p]); length > 0) normal[p] = (1 / length) * normal[p];
+  });
   return normal;
 }
 
@@ -32,12 +33,6 @@ void SampleCluster::add(const SampleCluster& other) {
     spread[k] = mine * spread[k] + others * other.spread[k] + between * apart[k];
   mean = mean + others * d;
   count = total;
-}
-
-double SampleCluster::covariance(const Vec3& a, const Vec3& b) const {
-  const auto& s = spread;
-  return a.x * (s[0] * b.x + s[1] * b.y + s[2] * b.z) + a.y * (s[1] * b.x + s[3] * b.y + s[4] * b.z) +
-         a.z * (s[2] * b.x + s[4] * b.y + s[5] * b.z);
 }
 
 ClusterPyramid::ClusterPyramid(const SurfaceFans& fans, std::span<const Vec3> position, std::vector<Vec3> normal,
@@ -76,15 +71,21 @@ ClusterLevel ClusterPyramid::coarser(ClusterLevel& fine, const Threads& threads)
     for (std::uint32_t c = 0; c < n; ++c) visit(fine.parent[c], c);
   });
   coarse.cluster.resize(coarse.seed.size());
-  coarse.extent.resize(coarse.seed.size());
+  coarse.place.resize(coarse.seed.size());
+  coarse.child.resize(n);
   for_each_index(threads, coarse.seed.size(), [&](std::size_t p) {
     SampleCluster& cluster = coarse.cluster[p];
     cluster.mean = fine.cluster[coarse.seed[p]].mean;
     for (const std::uint32_t c : coarse.children[p]) cluster.add(fine.cluster[c]);
+    coarse.place[p].mean = cluster.mean;
+    double& extent = coarse.place[p].extent;
     for (const std::uint32_t c : coarse.children[p])
-      coarse.extent[p] = std::max(coarse.extent[p], distance(fine.cluster[c].mean, cluster.mean));
+      extent = std::max(extent, distance(fine.cluster[c].mean, cluster.mean));
+    for (std::size_t k = coarse.children.begin[p]; k < coarse.children.begin[p + 1]; ++k)
+      coarse.child[k].cluster = fine.cluster[coarse.children.item[k]];
   });
-  coarse.normal = summed_normals(fine, coarse.seed.size());
+  coarse.normal = summed_normals(fine, coarse.children, threads);
+  copy_normals(fine, coarse, threads);
   const auto neighbours = [&] {
     return [&](std::size_t p, std::vector<std::uint32_t>& row) {
       const auto begin = static_cast<std::ptrdiff_t>(row.size());
@@ -99,10 +100,20 @@ ClusterLevel ClusterPyramid::coarser(ClusterLevel& fine, const Threads& threads)
   return coarse;
 }
 
-void ClusterPyramid::set_normals(std::vector<Vec3> normal) {
+void ClusterPyramid::copy_normals(const ClusterLevel& fine, ClusterLevel& coarse, const Threads& threads) {
+  for_each_index(threads, coarse.place.size(), [&](std::size_t p) {
+    coarse.place[p].normal = coarse.normal[p];
+    for (std::size_t k = coarse.children.begin[p]; k < coarse.children.begin[p + 1]; ++k)
+      coarse.child[k].normal = fine.normal[coarse.children.item[k]];
+  });
+}
+
+void ClusterPyramid::set_normals(std::vector<Vec3> normal, const Threads& threads) {
   levels_[0].normal = std::move(normal);
-  for (std::size_t l = 1; l < levels_.size(); ++l)
-    levels_[l].normal = summed_normals(levels_[l - 1], levels_[l].cluster.size());
+  for (std::size_t l = 1; l < levels_.size(); ++l) {
+    levels_[l].normal = summed_normals(levels_[l - 1], levels_[l].children, threads);
+    copy_normals(levels_[l - 1], levels_[l], threads);
+  }
 }
 
 } // namespace eigencrust

@@ -24,10 +24,24 @@ struct SampleCluster {
 
   void add(const SampleCluster& other);
   /// aᵀ C b
-  [[nodiscard]] double covariance(const Vec3& a, const Vec3& b) const;
+  [[nodiscard]] double covariance(const Vec3& a, const Vec3& b) const {
+    const auto& s = spread;
+    return a.x * (s[0] * b.x + s[1] * b.y + s[2] * b.z) + a.y * (s[1] * b.x + s[3] * b.y + s[4] * b.z) +
+           a.z * (s[2] * b.x + s[4] * b.y + s[5] * b.z);
+  }
 };
 
 struct ClusterLevel {
+  /// What a search looks at, side by side.
+  struct Place {
+    Vec3 mean, normal;
+    double extent = 0; ///< distance from its mean to those of its children, the largest
+  };
+  struct Child {
+    Vec3 normal;
+    SampleCluster cluster;
+  };
+
   std::vector<SampleCluster> cluster;
   std::vector<Vec3> normal;                 ///< unit; 0: unknown
   CompressedRows<std::uint32_t> neighbours; ///< along the surface
@@ -35,7 +49,8 @@ struct ClusterLevel {
   // Of the level below; empty in the first.
   std::vector<std::uint32_t> seed;        ///< from which the cluster was made
   CompressedRows<std::uint32_t> children; ///< which it joins
-  std::vector<double> extent;             ///< distance from its mean to those of its children, the largest
+  std::vector<Place> place;               ///< of each cluster
+  std::vector<Child> child;               ///< those of the children, in their order
 };
 
 /// Level 0 has a cluster for each vertex of the surface. Each next one joins every cluster of an independent set (which
@@ -56,10 +71,11 @@ class ClusterPyramid {
     return c;
   }
   /// New normals of the vertices; those of the clusters are the sums of their parts'.
-  void set_normals(std::vector<Vec3> normal);
+  void set_normals(std::vector<Vec3> normal, const Threads& threads);
 
  private:
   static ClusterLevel coarser(ClusterLevel& fine, const Threads& threads);
+  static void copy_normals(const ClusterLevel& fine, ClusterLevel& coarse, const Threads& threads);
   std::vector<ClusterLevel> levels_;
 };
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -63,6 +64,28 @@ TEST(LocalQuadric, FindsAQuadricAndItsNormalInAnyFrame) {
   EXPECT_NEAR(found->offset(at - 0.05 * normal, normal), 0.05, 1e-7);
   const Vec3 tangent = surface(0.3 + 1e-6, -0.2) - surface(0.3 - 1e-6, -0.2);
   EXPECT_NEAR(dot(found->foot(at).normal, tangent) / norm(tangent), 0, 1e-6);
+}
+
+TEST(LocalQuadric, SeveralWidthsAtOnceAreThoseOneByOne) {
+  const std::array<double, 3> widths{0.3, 0.42, 0.9};
+  const Vec3 origin{0, 0, 1}, normal{0, 0.6, 0.8};
+  QuadricFit all(origin, normal, widths);
+  std::vector<QuadricFit> single;
+  for (const double width : widths) single.emplace_back(origin, normal, width);
+  for (const Vec3& p : noisy(clouds::sphere(20'000), 0.02, 3)) {
+    all.add({p, {1e-5, 2e-6, 0, 1e-5, 0, 1e-5}, 2});
+    for (QuadricFit& fit : single) fit.add({p, {1e-5, 2e-6, 0, 1e-5, 0, 1e-5}, 2});
+  }
+  for (std::size_t k = 0; k < widths.size(); ++k) {
+    const auto one = single[k].solve(0.02), same = all.solve(0.02, k);
+    ASSERT_TRUE(one && same);
+    EXPECT_NEAR(norm(one->u), 1 / widths[k], 1e-12);
+    EXPECT_NEAR(distance(one->u, same->u), 0, 1e-12);
+    for (std::size_t i = 0; i < one->height.size(); ++i) EXPECT_NEAR(one->height[i], same->height[i], 1e-11) << i;
+    EXPECT_NEAR(one->noise_variance, same->noise_variance, 1e-13);
+    EXPECT_NEAR(one->variance, same->variance, 1e-11);
+    EXPECT_NEAR(one->sag, same->sag, 1e-13);
+  }
 }
 
 TEST(LocalQuadric, TooFewSamplesOrSamplesInARowMakeNoFitOrAHarmlessOne) {
