@@ -12,6 +12,8 @@
 
 #include "geometry/mesh_topology.h"
 #include "geometry/nearest_on_triangle.h"
+#include "simplify/edge_queue.h"
+#include "surface/fans.h"
 
 namespace eigencrust {
 namespace {
@@ -60,7 +62,8 @@ class Collapsing {
   }
 
   Collapsed run(const CollapseGoal& goal) {
-    if (!is_manifold_) return {{given_.vertices, given_.triangles, {}, {}}, std::move(quadric_), std::move(into_)};
+    if (!is_manifold_)
+      return {{given_.vertices, given_.triangles, {}, {}}, std::move(quadric_), std::move(into_), false};
     // What could not be collapsed may be possible when all around it has changed.
     for (std::size_t before = mesh_.number_of_faces() + 1;
          before > mesh_.number_of_faces() && mesh_.number_of_faces() > goal.triangles;) {
@@ -87,11 +90,6 @@ class Collapsing {
     Corners corners;
     std::uint32_t number;
   };
-  struct Candidate {
-    double cost;
-    std::uint32_t edge;
-    bool operator<(const Candidate& o) const { return cost > o.cost || (cost == o.cost && edge > o.edge); }
-  };
   /// Of edges: not in the queue, there with its cost, there with that of before.
   enum class State : std::uint8_t { left_out, waits, changed };
   struct Collapse {
@@ -103,20 +101,20 @@ class Collapsing {
 
   void fill_queue(const CollapseGoal& goal) {
     queue_.clear();
-    for (const EdgeId e : mesh_.edges()) add(e, goal);
-    std::make_heap(queue_.begin(), queue_.end());
+    for (const EdgeId e : mesh_.edges())
+      if (const double cost = cost_of(e, goal); cost >= 0) queue_.append(cost, static_cast<std::uint32_t>(e));
+    queue_.make();
   }
 
-  /// \return whether it is at the end of the queue now
-  bool add(EdgeId e, const CollapseGoal& goal) {
+  /// Also writes down whether the edge is to wait. \return negative: it is to be left out
+  double cost_of(EdgeId e, const CollapseGoal& goal) {
     state_[e] = State::left_out;
     const double limit = static_cast<double>(std::min(limit_[mesh_.vertex(e, 0)], limit_[mesh_.vertex(e, 1)]));
-    if (limit < 0) return false;
+    if (limit < 0) return -1;
     const Collapse collapse = evaluate(e);
-    if (!(collapse.distance <= std::min(goal.max_error, limit))) return false;
-    queue_.push_back({collapse.cost, static_cast<std::uint32_t>(e)});
+    if (!(collapse.distance <= std::min(goal.max_error, limit))) return -1;
     state_[e] = State::waits;
-    return true;
+    return collapse.cost;
   }
 
   [[nodiscard]] Collapse evaluate(EdgeId e) const {
@@ -132,15 +130,17 @@ class Collapsing {
 
   void empty_queue(const CollapseGoal& goal) {
     while (!queue_.empty() && mesh_.number_of_faces() > goal.triangles) {
-      std::pop_heap(queue_.begin(), queue_.end());
-      const Candidate next = queue_.back();
-      queue_.pop_back();
-      const EdgeId e(next.edge);
-      if (mesh_.is_removed(e)) continue;
-      if (std::exchange(state_[e], State::left_out) == State::changed) {
-        if (add(e, goal)) std::push_heap(queue_.begin(), queue_.end());
+      const EdgeId e(queue_.top());
+      if (!mesh_.is_removed(e) && state_[e] == State::changed) {
+        if (const double cost = cost_of(e, goal); cost >= 0)
+          queue_.change_top(cost);
+        else
+          queue_.pop();
         continue;
       }
+      queue_.pop();
+      if (mesh_.is_removed(e)) continue;
+      state_[e] = State::left_out;
       const std::size_t fewer = mesh_.is_border(e) ? 1 : 2;
       if (mesh_.number_of_faces() < goal.triangles + fewer) continue; // one at a rim may do for the last
       const Vec3 to = evaluate(e).place;
@@ -165,8 +165,8 @@ class Collapsing {
     for (const HalfedgeId h : CGAL::halfedges_around_target(mesh_.halfedge(kept), mesh_))
       if (const EdgeId around = mesh_.edge(h); state_[around] != State::left_out)
         state_[around] = State::changed;
-      else if (add(around, goal))
-        std::push_heap(queue_.begin(), queue_.end());
+      else if (const double cost = cost_of(around, goal); cost >= 0)
+        queue_.push(cost, static_cast<std::uint32_t>(around));
   }
 
   /// Does no triangle that is left turn over or become too thin?
@@ -275,29 +275,29 @@ class Collapsing {
   std::vector<StarTriangle> star_;                               ///< triangles that there will be
   std::vector<std::uint32_t> around_;                            ///< those that there are
   std::vector<std::pair<std::uint32_t, std::uint32_t>> goes_to_; ///< points and their new triangles
-  std::vector<Candidate> queue_;                                 ///< a heap
+  EdgeQueue queue_;
 };
 
 } // namespace
 
 std::vector<Quadric> vertex_quadrics(const TriangleMesh& mesh, const Threads& threads) {
+  const SurfaceFans fans(mesh);
   std::vector<Quadric> quadrics(mesh.vertices.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec3 area = area_vector(mesh, t);
-    const double twice = norm(area);
-    if (!(twice > 0)) continue;
-    const Quadric plane((1 / twice) * area, mesh.vertices[mesh.triangles[t][0]], twice / 2);
-    for (const std::uint32_t v : mesh.triangles[t]) quadrics[v] += plane;
-  }
-  for_each_edge(sorted_sides(mesh.triangles, mesh.vertices.size(), threads), [&](std::span<const Side> edge) {
-    if (edge.size() != 1) return;
-    const Vec3 &p = mesh.vertices[edge[0].low], &q = mesh.vertices[edge[0].high];
-    const Vec3 across = cross(q - p, area_vector(mesh, edge[0].triangle()));
-    const double length = norm(across);
-    if (!(length > 0)) return;
-    const Quadric wall((1 / length) * across, p, rim_weight * squared_norm(q - p));
-    quadrics[edge[0].low] += wall;
-    quadrics[edge[0].high] += wall;
+  for_each_index(threads, quadrics.size(), [&](std::size_t i) {
+    const auto v = static_cast<std::uint32_t>(i);
+    const Vec3& p = mesh.vertices[v];
+    const auto add = [&](const Vec3& normal, double weight) {
+      if (const double length = norm(normal); length > 0) quadrics[v] += Quadric((1 / length) * normal, p, weight);
+    };
+    const auto area_of = [&](const SurfaceFans::Wing& wing) {
+      return cross(mesh.vertices[wing.next] - p, mesh.vertices[wing.last] - p);
+    };
+    for (const auto& wing : fans[v]) add(area_of(wing), norm(area_of(wing)) / 2);
+    if (!fans.at_rim(v)) return;
+    for (const auto& wing : fans[v])
+      for (const std::uint32_t other : {wing.next, wing.last})
+        if (const Vec3 side = mesh.vertices[other] - p; fans.is_open(v, other))
+          add(cross(side, area_of(wing)), rim_weight * squared_norm(side));
   });
   return quadrics;
 }

@@ -39,6 +39,7 @@ struct Collapsed {
   TriangleMesh mesh;               ///< without attributes; vertices that are left keep their order
   std::vector<Quadric> quadrics;   ///< of its vertices
   std::vector<std::uint32_t> into; ///< of each vertex before: the vertex that it is now part of
+  bool is_manifold = true;         ///< else nothing was done
 };
 
 /// Collapses edges by Garland and Heckbert's error, each to the place of the least one. The link condition (Dey,

@@ -48,7 +48,8 @@ class CollapseInParts::Parts {
       for (const std::uint32_t v : mesh.triangles[along[i].second])
         owner_[v] = owner_[v] == no_index || owner_[v] == p ? p : shared;
     }
-    threads.run(parts_.size(), [&](std::size_t p) { take(triangles[p], parts_[p]); });
+    std::vector<std::uint32_t> own(mesh.vertices.size()); // number in the only part, of those that are not shared
+    threads.run(parts_.size(), [&](std::size_t p) { take(triangles[p], own, parts_[p]); });
   }
 
   Collapsed run(std::span<const float> limits) {
@@ -76,20 +77,25 @@ class CollapseInParts::Parts {
  private:
   static constexpr std::uint32_t shared = no_index - 1;
 
-  void take(const std::vector<std::uint32_t>& triangles, Part& part) const {
+  void take(const std::vector<std::uint32_t>& triangles, std::vector<std::uint32_t>& number, Part& part) const {
     for (const std::uint32_t t : triangles)
       part.vertex.insert(part.vertex.end(), mesh_.triangles[t].begin(), mesh_.triangles[t].end());
     std::sort(part.vertex.begin(), part.vertex.end());
     part.vertex.erase(std::unique(part.vertex.begin(), part.vertex.end()), part.vertex.end());
     for (const std::uint32_t v : part.vertex) {
+      if (owner_[v] != shared) number[v] = static_cast<std::uint32_t>(part.mesh.vertices.size());
       part.mesh.vertices.push_back(mesh_.vertices[v]);
       part.quadrics.push_back(quadrics_[v]);
     }
     for (const std::uint32_t t : triangles) {
       auto& own = part.mesh.triangles.emplace_back();
-      for (std::size_t k = 0; k < 3; ++k)
-        own[k] = static_cast<std::uint32_t>(
-            std::lower_bound(part.vertex.begin(), part.vertex.end(), mesh_.triangles[t][k]) - part.vertex.begin());
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t v = mesh_.triangles[t][k];
+        own[k] = owner_[v] != shared
+                     ? number[v]
+                     : static_cast<std::uint32_t>(std::lower_bound(part.vertex.begin(), part.vertex.end(), v) -
+                                                  part.vertex.begin());
+      }
     }
   }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "geometry/float_places.h"
+#include "simplify/collapse_again.h"
 #include "simplify/collapse_in_parts.h"
 #include "simplify/crossings.h"
 #include "simplify/turned.h"
@@ -24,6 +25,8 @@ constexpr double share_of_error = 0.95;
 // Where triangles cross or are too far off, edges may go half as far in the next round; after so many rounds they stay,
 // and in each one more those around, too. What is bad after the last does not get better.
 constexpr int rounds_of_halving = 4, rounds = 12;
+// In the last step the rest of the mesh stays as it is then, but for so many edges around: room for another way.
+constexpr int rings_apart = 2;
 
 class Simplification {
  public:
@@ -85,7 +88,8 @@ class Simplification {
 
   /// In the coordinates of the full mesh; what did not move is where it was bit for bit.
   [[nodiscard]] TriangleMesh placed(const State& state) const {
-    const auto& [mesh, quadrics, into] = state.collapsed;
+    const TriangleMesh& mesh = state.collapsed.mesh;
+    const std::vector<std::uint32_t>& into = state.collapsed.into;
     TriangleMesh result{std::vector<Vec3>(mesh.vertices.size()), mesh.triangles, {}, {}};
     for_each_index(threads_, mesh.vertices.size(),
                    [&](std::size_t v) { result.vertices[v] = as_floats(mesh.vertices[v] + centre_, spacing_); });
@@ -105,20 +109,27 @@ class Simplification {
     const StandFor stand_for{&surface_.tree(), centre_, full.vertices, triangle};
     std::optional<CollapseInParts> parts;
     if (!last) parts.emplace(mesh, before.collapsed.quadrics, stand_for, goal, threads_);
+    Collapsed made;
+    std::vector<std::uint8_t> bad;
     for (int round = 0; round < rounds; ++round) {
-      State after;
-      after.collapsed =
-          last ? collapse_edges(mesh, before.collapsed.quadrics, limits, stand_for, goal) : parts->run(limits);
-      const std::vector<std::uint32_t> into = std::move(after.collapsed.into);
+      std::optional<Collapsed> again;
+      if (round > 0 && last && !limits_error()) {
+        widen(made.mesh, rings_apart, bad);
+        again = collapse_again(before.collapsed, made, limits, bad, goal, threads_);
+      }
+      made = again  ? std::move(*again)
+             : last ? collapse_edges(mesh, before.collapsed.quadrics, limits, stand_for, goal)
+                    : parts->run(limits);
+      State after{made, {}, {}};
       after.collapsed.into = before.collapsed.into;
-      for (std::uint32_t& v : after.collapsed.into) v = into[v];
-      const std::vector<std::uint8_t> bad = bad_vertices(after, last);
+      for (std::uint32_t& v : after.collapsed.into) v = made.into[v];
+      bad = bad_vertices(after, last);
       if (bad.empty()) {
         held_ += static_cast<std::uint64_t>(
             std::count_if(limits.begin(), limits.end(), [](float l) { return std::isfinite(l); }));
         return after;
       }
-      hold(after.collapsed, into, bad, round, mesh, limits);
+      hold(made, bad, round, mesh, limits);
     }
     return before;
   }
@@ -134,10 +145,10 @@ class Simplification {
   }
 
   /// Lowers the limits of the vertices that what is bad was made from.
-  static void hold(const Collapsed& after, const std::vector<std::uint32_t>& into, const std::vector<std::uint8_t>& bad,
-                   int round, const TriangleMesh& before, std::vector<float>& limits) {
+  static void hold(const Collapsed& after, const std::vector<std::uint8_t>& bad, int round, const TriangleMesh& before,
+                   std::vector<float>& limits) {
     std::vector<std::uint8_t> held(limits.size());
-    for (std::size_t v = 0; v < held.size(); ++v) held[v] = bad[into[v]];
+    for (std::size_t v = 0; v < held.size(); ++v) held[v] = bad[after.into[v]];
     if (round >= rounds_of_halving) {
       widen(before, round - rounds_of_halving, held);
       for (std::size_t v = 0; v < held.size(); ++v)
@@ -146,7 +157,7 @@ class Simplification {
     }
     for (std::size_t v = 0; v < held.size(); ++v) {
       if (!held[v]) continue;
-      const std::uint32_t now = into[v];
+      const std::uint32_t now = after.into[v];
       const Quadric& q = after.quadrics[now];
       const double distance = q.weight() > 0 ? std::sqrt(q.at(after.mesh.vertices[now]) / q.weight()) : 0;
       limits[v] = 0.5f * std::min(limits[v], static_cast<float>(distance));

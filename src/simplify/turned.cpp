@@ -3,10 +3,8 @@
 
 #include <algorithm>
 
-#include <eigencrust/validate.h>
-
-#include "geometry/mesh_topology.h"
 #include "geometry/signed_volume.h"
+#include "surface/fans.h"
 
 namespace eigencrust {
 namespace {
@@ -17,26 +15,27 @@ struct Pieces {
 };
 
 Pieces pieces_of(const TriangleMesh& mesh, const Threads& threads) {
-  const std::vector<std::uint32_t> piece_of = triangle_components(mesh, threads.size());
-  const std::size_t count = piece_of.empty() ? 0 : std::size_t{*std::max_element(piece_of.begin(), piece_of.end())} + 1;
-  Pieces pieces{std::vector<std::uint32_t>(mesh.vertices.size(), 0), std::vector<int>(count, 0)};
+  const SurfaceFans fans(mesh);
+  Pieces pieces{fans.pieces(), {}};
+  const std::size_t count = pieces.of_vertex.empty()
+                                ? 0
+                                : std::size_t{*std::max_element(pieces.of_vertex.begin(), pieces.of_vertex.end())} + 1;
+  pieces.side.assign(count, 0);
   std::vector<SignedVolume> volume(count);
   std::vector<std::uint32_t> first(count, no_index);
-  for (std::uint32_t t = 0; t < piece_of.size(); ++t) {
-    const std::uint32_t p = piece_of[t];
-    if (first[p] == no_index) first[p] = mesh.triangles[t][0];
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::uint32_t p = pieces.of_vertex[a];
+    if (first[p] == no_index) first[p] = a;
     const Vec3& origin = mesh.vertices[first[p]];
-    const auto& [a, b, c] = mesh.triangles[t];
     volume[p].add(mesh.vertices[a] - origin, mesh.vertices[b] - origin, mesh.vertices[c] - origin);
-    for (const std::uint32_t v : mesh.triangles[t]) pieces.of_vertex[v] = p;
   }
   for (std::size_t p = 0; p < count; ++p) {
     const double known = volume[p].known();
     pieces.side[p] = known > 0 ? 1 : known < 0 ? -1 : 0;
   }
-  for_each_edge(sorted_sides(mesh.triangles, mesh.vertices.size(), threads), [&](std::span<const Side> edge) {
-    if (edge.size() == 1) pieces.side[piece_of[edge[0].triangle()]] = 0;
-  });
+  const std::vector<std::uint8_t> at_rim = fans.rim_vertices(threads);
+  for (std::size_t v = 0; v < at_rim.size(); ++v)
+    if (at_rim[v] != 0) pieces.side[pieces.of_vertex[v]] = 0;
   return pieces;
 }
 

@@ -6,10 +6,15 @@
 #include <eigencrust/validate.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "shapes.h"
+#include "simplify/collapse_again.h"
+#include "simplify/edge_queue.h"
 #include "simplify/remesh.h"
 
 namespace eigencrust {
@@ -132,6 +137,53 @@ TEST(Simplify, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one.mesh.triangles, three.mesh.triangles);
   EXPECT_EQ(one.deviation.max(), three.deviation.max());
   EXPECT_EQ(one.deviation.to_full.mean, three.deviation.to_full.mean);
+}
+
+TEST(Simplify, IsDoneAgainInSomePlacesOnly) {
+  const Threads threads(2);
+  for (const TriangleMesh& mesh : {shapes::icosphere(4), shapes::torus(3, 1, 60, 40), shapes::grid(40, 40)}) {
+    Collapsed before{mesh, vertex_quadrics(mesh, threads), {}};
+    const std::vector<float> limits(mesh.vertices.size(), std::numeric_limits<float>::infinity());
+    const std::size_t triangles = mesh.triangles.size() / 10;
+    const Collapsed after = collapse_edges(mesh, before.quadrics, limits, {}, {triangles, any});
+    ASSERT_TRUE(after.is_manifold);
+    std::vector<std::uint8_t> apart(after.mesh.vertices.size(), 0);
+    for (const std::uint32_t v : after.mesh.triangles[7]) apart[v] = 1;
+    std::vector<float> lower = limits; // of what one of them was made from
+    for (std::size_t v = 0; v < lower.size(); ++v)
+      if (after.into[v] == after.mesh.triangles[7][0]) lower[v] = -1;
+    const auto again = collapse_again(before, after, lower, apart, {triangles, any}, threads);
+    ASSERT_TRUE(again);
+    expect_the_same_surface(again->mesh, mesh);
+    EXPECT_LE(again->mesh.triangles.size(), triangles);
+    EXPECT_GE(again->mesh.triangles.size() + 2, triangles);
+    std::size_t kept = 0;
+    for (std::size_t v = 0; v < lower.size(); ++v) {
+      if (lower[v] < 0) {
+        EXPECT_EQ(again->mesh.vertices[again->into[v]], mesh.vertices[v]) << "it may not go";
+      }
+      kept += again->mesh.vertices[again->into[v]] == after.mesh.vertices[after.into[v]] ? 1 : 0;
+    }
+    EXPECT_GT(kept, lower.size() / 2) << "the rest stays";
+  }
+}
+
+TEST(Simplify, TheQueueGivesTheCheapestEdgeFirst) {
+  EdgeQueue queue;
+  std::vector<std::pair<double, std::uint32_t>> expected;
+  for (std::uint32_t e = 0; e < 1000; ++e) expected.emplace_back(std::ldexp(e * 7919 % 1000, -900), e);
+  for (const auto& [cost, edge] : expected)
+    if (edge < 600) queue.append(cost, edge);
+  queue.make();
+  for (const auto& [cost, edge] : expected)
+    if (edge >= 600) queue.push(cost, edge);
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(queue.top(), expected[0].second);
+  queue.change_top(1); // dearer than all
+  for (std::size_t i = 1; i < expected.size(); ++i, queue.pop()) ASSERT_EQ(queue.top(), expected[i].second);
+  EXPECT_EQ(queue.top(), expected[0].second);
+  queue.pop();
+  EXPECT_TRUE(queue.empty());
 }
 
 TEST(Remesh, MakesEdgesAsLongAsAskedForAndKeepsCreases) {
