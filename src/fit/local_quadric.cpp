@@ -43,34 +43,41 @@ inline QuadricFit::Row QuadricFit::row_of(const SampleCluster& samples) const {
   return row;
 }
 
-inline void QuadricFit::Width::add(const Row& row) {
-  const double nearness = 1 - row.square * (shrink * shrink);
-  if (!(nearness > 0)) return;
-  const double squared = nearness * nearness, w = row.count * squared;
-  const Basis& b = row.basis;
-  row0 += w * b.head<2>();
-  row1 += w * b[1] * b.head<2>();
-  row2 += w * b[2] * b.head<4>();
-  row3 += w * b[3] * b.head<4>();
-  row4 += w * b[4] * b;
-  row5 += w * b[5] * b;
-  right += w * row.height * b;
-  sum += w * Eigen::Array<double, 2, 1>(row.height_square, squared);
+/// Where a width ends is anybody's guess: those within are written down first.
+void QuadricFit::Width::add(std::span<const Row> rows) {
+  std::array<std::uint8_t, batch> within;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    within[count] = static_cast<std::uint8_t>(i);
+    count += rows[i].square * (shrink * shrink) < 1 ? 1 : 0;
+  }
+  for (const std::uint8_t i : std::span(within).first(count)) {
+    const Row& row = rows[i];
+    const double nearness = 1 - row.square * (shrink * shrink);
+    const double squared = nearness * nearness, w = row.count * squared;
+    const Basis& b = row.basis;
+    row0 += w * b.head<2>();
+    row1 += w * b[1] * b.head<2>();
+    row2 += w * b[2] * b.head<4>();
+    row3 += w * b[3] * b.head<4>();
+    row4 += w * b[4] * b;
+    row5 += w * b[5] * b;
+    right += w * row.height * b;
+    sum += w * Eigen::Array<double, 2, 1>(row.height_square, squared);
+  }
 }
 
 void QuadricFit::add(std::span<const SampleCluster* const> clusters) {
-  // Some rows are written before they are read: what was just written in parts would have to be waited for.
-  constexpr std::size_t batch = 64;
   std::array<Row, batch> rows;
   while (!clusters.empty()) {
     const std::size_t look = std::min(batch, clusters.size());
     std::size_t count = 0;
     for (const SampleCluster* samples : clusters.first(look)) {
       rows[count] = row_of(*samples);
-      count += rows[count].square < 1 && samples->count > 0;
+      const bool is_near = rows[count].square<1, is_any = samples->count> 0;
+      count += is_near & is_any;
     }
-    for (std::size_t i = 0; i < count; ++i)
-      for (std::size_t k = 0; k < count_; ++k) width_[k].add(rows[i]);
+    for (std::size_t k = 0; k < count_; ++k) width_[k].add(std::span(rows).first(count));
     clusters = clusters.subspan(look);
   }
 }

@@ -65,6 +65,8 @@ class QuadricFit {
 
  private:
   static constexpr std::size_t unknowns = 6;
+  /// So many rows are written before they are read: what was just written in parts would have to be waited for.
+  static constexpr std::size_t batch = 64;
   using Basis = Eigen::Array<double, unknowns, 1>; ///< 1, x, y, x², xy, y² in units of the largest width
 
   struct Row {
@@ -80,7 +82,7 @@ class QuadricFit {
     Basis right;                    ///< Σ w b z
     Eigen::Array<double, 2, 1> sum; ///< Σ w z² and Σ w²
 
-    void add(const Row& row);
+    void add(std::span<const Row> rows);
   };
 
   [[nodiscard]] Row row_of(const SampleCluster& samples) const;

@@ -78,7 +78,8 @@ class Neighbourhood {
       std::size_t fresh = 0;
       for (const std::uint32_t c : level.neighbours[way_[i]]) {
         fresh_[fresh] = c;
-        fresh += seen_in[c] != round_ && seen + fresh < most;
+        const bool is_new = seen_in[c] != round_, is_one_more = seen + fresh < most;
+        fresh += is_new & is_one_more;
         seen_in[c] = round_;
       }
       seen += fresh;
