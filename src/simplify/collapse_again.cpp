@@ -98,8 +98,10 @@ std::optional<Collapsed> collapse_again(const Collapsed& before, const Collapsed
   constexpr int rounds = 4; // of a few hundred places one or two ask for a second
   std::vector<std::uint8_t> all(apart.begin(), apart.end());
   Mixed mixed = mix(before, after, limits, all);
-  for (int round = 0; round < rounds && take_more_apart(mixed, after, threads, all); ++round)
+  for (int round = 0; take_more_apart(mixed, after, threads, all); ++round) {
+    if (round == rounds) return std::nullopt;
     mixed = mix(before, after, limits, all);
+  }
   if (twice_euler(mixed.mesh, threads) != twice_euler(before.mesh, threads)) return std::nullopt;
   Collapsed again = collapse_edges(mixed.mesh, mixed.quadrics, mixed.limits, {}, goal);
   if (!again.is_manifold) return std::nullopt;
