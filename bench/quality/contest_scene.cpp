@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <tuple>
+#include <utility>
 
 #include <eigencrust/error.h>
 #include <eigencrust/io.h>
@@ -30,6 +32,8 @@ WriteOptions exactly() {
   return options;
 }
 
+bool comes_before(const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+
 Scene scene_of(const ContestCase& item, Sources& sources) {
   if (item.make) return item.make(sources);
   Truth truth;
@@ -39,22 +43,54 @@ Scene scene_of(const ContestCase& item, Sources& sources) {
   return scene;
 }
 
-std::array<Vec3, 3> sorted_corners(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
-  std::array<Vec3, 3> corners{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-  const auto before = [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
-  std::sort(corners.begin(), corners.end(), before);
-  return corners;
+using Corners = std::array<std::uint32_t, 3>;
+
+/// The corners of all triangles, increasing, and they in order.
+std::vector<Corners> sorted_triangles(const TriangleMesh& mesh, const std::vector<Vec3>& places) {
+  std::vector<std::uint32_t> number;
+  for (const Vec3& v : mesh.vertices)
+    number.push_back(
+        static_cast<std::uint32_t>(std::lower_bound(places.begin(), places.end(), v, comes_before) - places.begin()));
+  std::vector<Corners> all;
+  for (const auto& t : mesh.triangles) {
+    Corners& corners = all.emplace_back(Corners{number[t[0]], number[t[1]], number[t[2]]});
+    std::sort(corners.begin(), corners.end());
+  }
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
-using CornerKey = std::array<double, 9>;
-std::vector<CornerKey> sorted_triangles(const TriangleMesh& mesh) {
-  std::vector<CornerKey> keys;
-  for (const auto& t : mesh.triangles) {
-    const auto [a, b, c] = sorted_corners(mesh, t);
-    keys.push_back({a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z});
+/// The four corners of every two triangles with a common edge, increasing, and the two.
+using Pair = std::pair<std::array<std::uint32_t, 4>, std::array<std::size_t, 2>>;
+std::vector<Pair> pairs_of(const std::vector<Corners>& triangles) {
+  std::map<std::array<std::uint32_t, 2>, std::vector<std::size_t>> at_edge;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto [a, b, c] = triangles[i];
+    for (const auto& edge : {std::array{a, b}, std::array{a, c}, std::array{b, c}}) at_edge[edge].push_back(i);
   }
-  std::sort(keys.begin(), keys.end());
-  return keys;
+  std::vector<Pair> pairs;
+  for (const auto& [edge, at] : at_edge) {
+    if (at.size() != 2) continue;
+    std::array corners{edge[0], edge[1], 0u, 0u};
+    for (std::size_t k = 0; k < 2; ++k)
+      for (const std::uint32_t c : triangles[at[k]])
+        if (c != edge[0] && c != edge[1]) corners[2 + k] = c;
+    std::sort(corners.begin(), corners.end());
+    pairs.push_back({corners, {at[0], at[1]}});
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+/// How many of these triangles lie two and two over the same four corners as two of the others, their edge turned.
+std::size_t count_turned(const std::vector<Corners>& triangles, const std::vector<Corners>& others) {
+  const std::vector<Pair> pairs = pairs_of(others);
+  std::vector<std::uint8_t> turned(triangles.size(), 0);
+  for (const auto& [corners, two] : pairs_of(triangles)) {
+    const auto found = std::lower_bound(pairs.begin(), pairs.end(), Pair{corners, {0, 0}});
+    if (found != pairs.end() && found->first == corners) turned[two[0]] = turned[two[1]] = 1;
+  }
+  return static_cast<std::size_t>(std::count(turned.begin(), turned.end(), 1));
 }
 
 void measure_mesh(const TriangleMesh& mesh, unsigned threads, ContestFigures& figures) {
@@ -181,12 +217,20 @@ std::vector<std::uint32_t> outlier_rows(const std::vector<Vec3>& points, std::si
   return rows;
 }
 
-double triangle_agreement(const TriangleMesh& a, const TriangleMesh& b) {
-  const std::vector<CornerKey> of_a = sorted_triangles(a), of_b = sorted_triangles(b);
-  std::vector<CornerKey> both;
-  std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(both));
-  const std::size_t most = std::max(of_a.size(), of_b.size());
-  return most == 0 ? 0 : static_cast<double>(both.size()) / static_cast<double>(most);
+Agreement triangle_agreement(const TriangleMesh& a, const TriangleMesh& b) {
+  std::vector<Vec3> places = a.vertices;
+  places.insert(places.end(), b.vertices.begin(), b.vertices.end());
+  std::sort(places.begin(), places.end(), comes_before);
+  const std::vector<Corners> of_a = sorted_triangles(a, places), of_b = sorted_triangles(b, places);
+  std::vector<Corners> only_a, only_b;
+  std::set_difference(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(only_a));
+  std::set_difference(of_b.begin(), of_b.end(), of_a.begin(), of_a.end(), std::back_inserter(only_b));
+  if (of_a.empty() && of_b.empty()) return {};
+  const auto most = static_cast<double>(std::max(of_a.size(), of_b.size()));
+  const std::size_t common = of_a.size() - only_a.size();
+  // Where nothing is the same the vertices are others, of millions of triangles at times.
+  const std::size_t turned = common == 0 ? 0 : std::min(count_turned(only_a, only_b), count_turned(only_b, only_a));
+  return {static_cast<double>(common) / most, static_cast<double>(common + turned) / most};
 }
 
 ContestFigures contest_figures(const fs::path& folder, const fs::path& mesh_file, const fs::path& other,
@@ -199,7 +243,11 @@ ContestFigures contest_figures(const fs::path& folder, const fs::path& mesh_file
   measure_mesh(mesh, threads, figures);
   measure_rows(folder, scene, mesh, threads, figures);
   measure_truth(folder, scene, mesh, threads, figures);
-  if (!other.empty()) figures.agree = triangle_agreement(mesh, read_mesh(other));
+  if (!other.empty()) {
+    const Agreement agreement = triangle_agreement(mesh, read_mesh(other));
+    figures.agree = agreement.same;
+    figures.agree_but_turned = agreement.but_for_turned;
+  }
   return figures;
 }
 

@@ -43,10 +43,11 @@ struct ContestFigures {
   double edges = -1;                     ///< mean distance of points on the true sharp edges, in spacings
   double volume = 0;                     ///< whichever way the triangles look; 0: not closed
   double agree = -1;                     ///< triangle_agreement() with the other mesh
+  double agree_but_turned = -1;          ///< the same but for turned edges
 };
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ContestFigures, triangles, pieces, genus, boundary, nonmanifold,
                                                 crossings, outliers, missed, to_truth, from_truth, missing, edges,
-                                                volume, agree)
+                                                volume, agree, agree_but_turned)
 
 /// \param other its triangles are compared; empty: none
 ContestFigures contest_figures(const std::filesystem::path& folder, const std::filesystem::path& mesh,
@@ -56,7 +57,15 @@ ContestFigures contest_figures(const std::filesystem::path& folder, const std::f
 /// 10 times as far as the median of all.
 std::vector<std::uint32_t> outlier_rows(const std::vector<Vec3>& points, std::size_t true_samples, unsigned threads);
 
-/// The share of the triangles of the mesh that has more that both have; corners are told by their coordinates.
-double triangle_agreement(const TriangleMesh& a, const TriangleMesh& b);
+/// Shares of the triangles of the mesh that has more.
+struct Agreement {
+  double same = 0; ///< both have them
+  /// Those, and two and two over the same four corners as two of the other: an edge is turned. A flat tetrahedron is
+  /// inside of one surface and outside of the other.
+  double but_for_turned = 0;
+};
+
+/// Corners are told by their coordinates.
+Agreement triangle_agreement(const TriangleMesh& a, const TriangleMesh& b);
 
 } // namespace eigencrust::bench

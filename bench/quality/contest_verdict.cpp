@@ -87,6 +87,10 @@ const std::vector<ContestColumn>& contest_columns() {
        chance},
       {"agree %", nothing,
        [](Run r, Run, Outcome) { return r.figures.agree <= 0 ? "" : text("%.1f", 100 * r.figures.agree); }},
+      {"but for turned %", nothing,
+       [](Run r, Run, Outcome) {
+         return r.figures.agree_but_turned <= 0 ? "" : text("%.1f", 100 * r.figures.agree_but_turned);
+       }},
       {"time", [](Run r, Run, Outcome) { return r.note.empty() ? r.seconds : -1; },
        [](Run r, Run ours, Outcome) { return r.note.empty() ? ratio(r.seconds, ours.seconds) : ""; }, chance},
       {"memory", [](Run r, Run, Outcome) { return r.note.empty() ? r.bytes : -1; },

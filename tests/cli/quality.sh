@@ -24,6 +24,8 @@ test_methods_on_one_small_cloud() {
   done
   equal "faults of eigencrust" "$(cell eigencrust non-manifold)/$(cell eigencrust crossings)" 0/0
   awk -v share="$(cell tight-cocone 'agree %')" 'BEGIN { exit !(share >= 99) }' || die "tight-cocone makes another surface"
+  awk -v same="$(cell tight-cocone 'agree %')" -v share="$(cell tight-cocone 'but for turned %')" \
+    'BEGIN { exit !(share >= same && share <= 100) }' || die "turned edges are counted wrong"
   equal "time of eigencrust" "$(cell eigencrust time)" 1.00
   grep -q '^| Open3D Poisson | not installed |' page.md || die "a peer that is not there is not named"
   grep -q '^| CGAL alpha wrap | not built |' page.md || die "a driver that is not there is not named"

@@ -101,10 +101,24 @@ TEST(QualityScene, TrianglesAgreeWhateverTheirOrder) {
   TriangleMesh other = mesh;
   std::reverse(other.triangles.begin(), other.triangles.end());
   for (auto& t : other.triangles) std::swap(t[0], t[2]);
-  EXPECT_EQ(triangle_agreement(mesh, other), 1);
+  EXPECT_EQ(triangle_agreement(mesh, other).same, 1);
+  EXPECT_EQ(triangle_agreement(mesh, other).but_for_turned, 1);
   other.triangles.resize(other.triangles.size() / 2);
-  EXPECT_EQ(triangle_agreement(mesh, other), 0.5);
-  EXPECT_EQ(triangle_agreement({}, {}), 0);
+  EXPECT_EQ(triangle_agreement(mesh, other).same, 0.5);
+  EXPECT_EQ(triangle_agreement(mesh, other).but_for_turned, 0.5); // what is missing is no turned edge
+  EXPECT_EQ(triangle_agreement({}, {}).same, 0);
+}
+
+TEST(QualityScene, TurnedEdgesAreTold) {
+  TriangleMesh square, turned, moved;
+  square.vertices = turned.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 5}, {1, 0, 5}, {0, 1, 5}};
+  square.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}};
+  turned.triangles = {{0, 1, 3}, {1, 2, 3}, {4, 5, 6}};
+  EXPECT_DOUBLE_EQ(triangle_agreement(square, turned).same, 1.0 / 3);
+  EXPECT_EQ(triangle_agreement(square, turned).but_for_turned, 1);
+  moved = turned;
+  moved.vertices[2] = {1, 1, 1}; // other corners: another surface
+  EXPECT_DOUBLE_EQ(triangle_agreement(square, moved).but_for_turned, 1.0 / 3);
 }
 
 TEST(QualityPage, IsTheSameInMarkdownAndHtml) {
