@@ -15,8 +15,9 @@ namespace {
 // A ball is big when its radius is so many times the mean distance of one of its samples to its nearest ones.
 constexpr double big = 4;
 constexpr std::size_t nearest_samples = 3;
-// Balls intersect deeply when their surfaces cross at more than this: outer and inner balls nearly touch.
-const double deep_cosine = std::cos(10 * std::numbers::pi / 180);
+// Balls intersect deeply when their radii to where they cross make less than this: outer and inner balls nearly touch
+// and have theirs nearly opposite.
+const double deep_cosine = std::cos(std::numbers::pi / 3);
 
 class OuterBalls {
  public:
@@ -63,7 +64,7 @@ class OuterBalls {
  private:
   static bool intersect_deeply(const Sphere& a, const Sphere& b) {
     const double d2 = squared_norm(a.centre - b.centre);
-    return d2 <= a.radius * a.radius + b.radius * b.radius + 2 * a.radius * b.radius * deep_cosine;
+    return d2 <= a.radius * a.radius + b.radius * b.radius - 2 * a.radius * b.radius * deep_cosine;
   }
 
   /// Of each sample to its nearest ones.

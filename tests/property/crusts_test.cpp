@@ -85,6 +85,18 @@ TEST(Crusts, RobustCoconeKeepsTheOuterBoundaryOfNoise) {
     EXPECT_EQ(robust.mesh.vertices[v], noisy[static_cast<std::size_t>(attribute_value(*source, v))]);
 }
 
+// Balls between the samples of thin noise are big, too, but do not intersect those outside deeply.
+TEST(Crusts, RobustCoconeDoesNotWalkIntoTheNoise) {
+  for (const double noise : {0.03, 0.04}) { // half a spacing and more
+    SCOPED_TRACE(noise);
+    const Points noisy = clouds::jittered(clouds::torus(2, 0.7, 240, 84), noise, 7);
+    const MeshSummary m = by(Method::robust_cocone, noisy).report.mesh;
+    EXPECT_TRUE(m.closed());
+    EXPECT_EQ(m.components, 1u);
+    EXPECT_EQ(m.genus, 1);
+  }
+}
+
 // Strays all around hide the object from what walks in from outside: that is said, and no scrap of strays given out for
 // it.
 TEST(Crusts, NoScrapPassesForASurface) {
