@@ -77,17 +77,27 @@ class HandleClosing {
   }
 
   /// The handle that the loop was found at. From afar a loop may go through one handle and around another; those from
-  /// its own vertices go around one.
+  /// its own vertices go around one. The shortest loop through the far end of one is no longer: that leads to where the
+  /// handle is narrow, and to another disc.
   bool close_at(const Loop& loop, LoopsNearby& nearby) {
     if (!is_changed(loop, 1) && close(loop)) return true;
-    // All parts together are no larger than the surface: what is full of handles is no surface.
-    if (nearby.visited() > surface_size_) return false;
-    const auto root = std::find_if(loop.begin(), loop.end(),
-                                   [&](std::uint32_t s) { return moves_.labels().on_surface(VertexIndex{s}); });
-    if (root == loop.end()) return false;
-    const auto radius = static_cast<std::uint32_t>((loop.size() + 1) / 2);
-    const auto loops = nearby.at(*root, radius, moves_.scene.threads);
-    return std::any_of(loops.begin(), loops.end(), [&](const Loop& near) { return close(near); });
+    const auto start = std::find_if(loop.begin(), loop.end(),
+                                    [&](std::uint32_t s) { return moves_.labels().on_surface(VertexIndex{s}); });
+    if (start == loop.end()) return false;
+    std::vector<std::uint32_t> seen;
+    std::size_t edges = loop.size();
+    for (std::uint32_t root = *start; std::find(seen.begin(), seen.end(), root) == seen.end();) {
+      // All parts together are no larger than the surface: what is full of handles is no surface.
+      if (nearby.visited() > surface_size_) return false;
+      seen.push_back(root);
+      const auto radius = static_cast<std::uint32_t>((edges + 1) / 2);
+      const auto loops = nearby.at(root, radius, moves_.scene.threads);
+      if (std::any_of(loops.begin(), loops.end(), [&](const Loop& near) { return close(near); })) return true;
+      if (loops.empty() || loops.back().size() > edges) return false;
+      edges = loops.back().size();
+      root = loops.back().front();
+    }
+    return false;
   }
 
   /// Has something been closed at one of its samples, in this round or later?
