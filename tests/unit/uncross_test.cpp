@@ -116,7 +116,8 @@ TEST(ClearStars, AreThoseOfASmoothSurfaceAndNotThoseAtRimsAndFolds) {
   const std::uint32_t pulled = 100;
   mesh.vertices[pulled] = -1.5 * mesh.vertices[pulled];
   const auto clear = clear_of(mesh);
-  for (const auto& wing : SurfaceFans(mesh)[pulled]) EXPECT_EQ(clear[wing.next], 0) << "its star is folded";
+  const SurfaceFans fans(mesh);
+  for (const auto& wing : fans[pulled]) EXPECT_EQ(clear[wing.next], 0) << "its star is folded";
   const TriangleMesh sheet = shapes::grid(4, 4);
   const std::vector<std::uint8_t> at_rim = SurfaceFans(sheet).rim_vertices(Threads(1)), known = clear_of(sheet);
   for (std::size_t v = 0; v < known.size(); ++v) EXPECT_EQ(known[v], at_rim[v] ? 0 : 1) << v;
