@@ -24,6 +24,9 @@ constexpr double sampling_reach = 2;
 constexpr std::uint32_t longest_loop = 100;
 // Tetrahedra of a disc for each unit of what closing the handle is worth: each costs a good part of one.
 constexpr double tetrahedra_per_worth = 8;
+// Looks for one handle, the first from the loop itself. A third finds nothing in the scans tried and takes as long.
+constexpr std::size_t looks_for_a_handle = 2;
+
 class HandleClosing {
  public:
   explicit HandleClosing(Moves& moves)
@@ -93,7 +96,7 @@ class HandleClosing {
       const auto radius = static_cast<std::uint32_t>((edges + 1) / 2);
       const auto loops = nearby.at(root, radius, moves_.scene.threads);
       if (std::any_of(loops.begin(), loops.end(), [&](const Loop& near) { return close(near); })) return true;
-      if (loops.empty() || loops.back().size() > edges) return false;
+      if (loops.empty() || loops.back().size() > edges || seen.size() == looks_for_a_handle) return false;
       edges = loops.back().size();
       root = loops.back().front();
     }
