@@ -87,16 +87,15 @@ class HandleClosing {
     const auto start = std::find_if(loop.begin(), loop.end(),
                                     [&](std::uint32_t s) { return moves_.labels().on_surface(VertexIndex{s}); });
     if (start == loop.end()) return false;
-    std::vector<std::uint32_t> seen;
+    std::uint32_t root = *start;
     std::size_t edges = loop.size();
-    for (std::uint32_t root = *start; std::find(seen.begin(), seen.end(), root) == seen.end();) {
+    for (std::size_t look = 0; look < looks_for_a_handle; ++look) {
       // All parts together are no larger than the surface: what is full of handles is no surface.
       if (nearby.visited() > surface_size_) return false;
-      seen.push_back(root);
       const auto radius = static_cast<std::uint32_t>((edges + 1) / 2);
       const auto loops = nearby.at(root, radius, moves_.scene.threads);
       if (std::any_of(loops.begin(), loops.end(), [&](const Loop& near) { return close(near); })) return true;
-      if (loops.empty() || loops.back().size() > edges || seen.size() == looks_for_a_handle) return false;
+      if (loops.empty() || loops.back().size() > edges || loops.back().front() == root) return false;
       edges = loops.back().size();
       root = loops.back().front();
     }
