@@ -73,11 +73,12 @@ int run(const cli::Arguments& arguments) {
 }
 
 /// Freed arrays stay with the process. Stage after stage takes arrays of the same size, and fresh pages are slow
-/// (docs/decisions/0022).
+/// (docs/decisions/0022). All threads share them: what one frees another may need.
 void keep_freed_memory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);
+  mallopt(M_ARENA_MAX, 1);
 #endif
 }
 

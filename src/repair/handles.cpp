@@ -24,9 +24,6 @@ constexpr double sampling_reach = 2;
 constexpr std::uint32_t longest_loop = 100;
 // Tetrahedra of a disc for each unit of what closing the handle is worth: each costs a good part of one.
 constexpr double tetrahedra_per_worth = 8;
-// Looks for one handle, the first from the loop itself. A third finds nothing in the scans tried and takes as long.
-constexpr std::size_t looks_for_a_handle = 2;
-
 class HandleClosing {
  public:
   explicit HandleClosing(Moves& moves)
@@ -80,26 +77,17 @@ class HandleClosing {
   }
 
   /// The handle that the loop was found at. From afar a loop may go through one handle and around another; those from
-  /// its own vertices go around one. The shortest loop through the far end of one is no longer: that leads to where the
-  /// handle is narrow, and to another disc.
+  /// its own vertices go around one.
   bool close_at(const Loop& loop, LoopsNearby& nearby) {
     if (!is_changed(loop, 1) && close(loop)) return true;
-    const auto start = std::find_if(loop.begin(), loop.end(),
-                                    [&](std::uint32_t s) { return moves_.labels().on_surface(VertexIndex{s}); });
-    if (start == loop.end()) return false;
-    std::uint32_t root = *start;
-    std::size_t edges = loop.size();
-    for (std::size_t look = 0; look < looks_for_a_handle; ++look) {
-      // All parts together are no larger than the surface: what is full of handles is no surface.
-      if (nearby.visited() > surface_size_) return false;
-      const auto radius = static_cast<std::uint32_t>((edges + 1) / 2);
-      const auto loops = nearby.at(root, radius, moves_.scene.threads);
-      if (std::any_of(loops.begin(), loops.end(), [&](const Loop& near) { return close(near); })) return true;
-      if (loops.empty() || loops.back().size() > edges || loops.back().front() == root) return false;
-      edges = loops.back().size();
-      root = loops.back().front();
-    }
-    return false;
+    // All parts together are no larger than the surface: what is full of handles is no surface.
+    if (nearby.visited() > surface_size_) return false;
+    const auto root = std::find_if(loop.begin(), loop.end(),
+                                   [&](std::uint32_t s) { return moves_.labels().on_surface(VertexIndex{s}); });
+    if (root == loop.end()) return false;
+    const auto radius = static_cast<std::uint32_t>((loop.size() + 1) / 2);
+    const auto loops = nearby.at(*root, radius, moves_.scene.threads);
+    return std::any_of(loops.begin(), loops.end(), [&](const Loop& near) { return close(near); });
   }
 
   /// Has something been closed at one of its samples, in this round or later?

@@ -169,22 +169,6 @@ TEST(CloseHandles, FillsATunnelThatHardlyAnyoneVouchesFor) {
   expect_unchanged(solid, 0); // nothing is left to do
 }
 
-// A tunnel that widens to both ends: loops far from its narrowest place are wide, and their discs cost too much.
-TEST(CloseHandles, FollowsATunnelToWhereItIsNarrow) {
-  for (const double narrowest : {0.0, 0.3}) {
-    SCOPED_TRACE(narrowest);
-    const auto in_funnels = [&](const Vec3& c) {
-      return std::hypot(c.x, c.y) < 0.16 + 0.6 * std::fabs(c.z - narrowest) && std::fabs(c.z) < ball_radius;
-    };
-    Solid solid([&](const Vec3& c) { return in_ball(c) && !in_funnels(c); }, in_funnels, 1);
-    solid.set_noise(0);
-    ASSERT_EQ(solid.summary().genus, 1);
-    EXPECT_GT(solid.close(), 0u);
-    EXPECT_EQ(solid.summary().genus, 0);
-    EXPECT_TRUE(clouds::is_closed_manifold(solid.summary()));
-  }
-}
-
 TEST(CloseHandles, CutsAThinRing) {
   // All of a torus is open and the space around it is vouched for: its hole cannot be filled as cheaply.
   const auto in_ring = [](const Vec3& c) { return std::hypot(std::hypot(c.x, c.y) - 0.55, c.z) < 0.2; };
