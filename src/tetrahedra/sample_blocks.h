@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,6 +18,28 @@
 #include "parallel/threads.h"
 
 namespace eigencrust {
+
+/// What everyone knows of a block of samples.
+struct BlockSketch {
+  Box3 box; ///< around the samples
+  /// The middle, axes and half lengths of another box around them, turned as they lie: thin where they are of a
+  /// surface, so that spheres that touch the surface nearby do not meet it.
+  Vec3 middle;
+  std::array<Vec3, 3> axis;
+  std::array<double, 3> half{};
+  Vec3 scout;
+  std::uint32_t scout_sample = 0; ///< the one nearest to the middle of the box
+
+  /// Of a point from the turned box.
+  [[nodiscard]] double squared_distance(const Vec3& p) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < axis.size(); ++k) {
+      const double beyond = std::max(std::fabs(dot(p - middle, axis[k])) - half[k], 0.0);
+      sum += beyond * beyond;
+    }
+    return sum;
+  }
+};
 
 /// Samples that follow one another along the Hilbert curve.
 struct SampleRange {
@@ -30,31 +54,61 @@ inline double gap(double a_min, double a_max, double b_min, double b_max) {
 }
 
 /// A tree of boxes around consecutive samples, eight to each: neighbours along the Hilbert curve are neighbours in
-/// space, so the boxes are small, and a range of samples is a few of them.
+/// space, so the boxes are small, and a range of samples is a few of them. The samples themselves may be elsewhere,
+/// block by block, until they are learned.
 class SampleBlocks {
  public:
   static constexpr std::uint32_t branches = 8;
   static constexpr std::uint32_t block_size = branches * branches;
 
+  /// Knows all samples.
   /// \param samples along the Hilbert curve, at least one; they outlive the boxes
   SampleBlocks(std::span<const Vec3> samples, const Threads& threads);
 
-  /// Around the samples [block, block + 1) * block_size.
+  /// Knows no sample yet but a scout of each block.
+  /// \param count of the samples, at least one
+  SampleBlocks(std::uint32_t count, std::vector<BlockSketch> sketches);
+
+  SampleBlocks(const SampleBlocks&) = delete;
+  SampleBlocks& operator=(const SampleBlocks&) = delete;
+
+  [[nodiscard]] std::uint32_t sample_count() const { return count_; }
+  [[nodiscard]] std::uint32_t block_count() const { return static_cast<std::uint32_t>(blocks_.size()); }
+  /// The samples [block, block + 1) * block_size; the last block may have fewer.
+  [[nodiscard]] SampleRange samples_of(std::uint32_t block) const { return range_of(block_level, block); }
+  [[nodiscard]] bool knows(std::uint32_t block) const { return blocks_[block].samples != nullptr; }
+  /// \param samples of a block that was not known; copied
+  void learn(std::uint32_t block, std::span<const Vec3> samples);
+  /// Of a scout, or a sample whose block is known.
+  [[nodiscard]] const Vec3& position(std::uint32_t sample) const {
+    const std::uint32_t block = sample / block_size;
+    return knows(block) ? blocks_[block].samples[sample % block_size] : sketches_[block].scout;
+  }
+  /// Around the samples of a block, known or not.
   [[nodiscard]] Box3 box_of_block(std::uint32_t block) const;
+  /// Of a block that is known.
+  [[nodiscard]] BlockSketch sketch_of(std::uint32_t block) const;
 
   /// The sample nearest to `centre` that is not in `left_out`, not farther than the root of `squared_reach`, and of
   /// which accept(sample, squared distance) is true.
   /// \param looked_at is added how many nodes were looked at
-  template <class Accept>
+  /// \param absent is called with blocks that would have to be known for more than a scout
+  template <class Accept, class Absent>
   std::optional<std::uint32_t> nearest(const Vec3& centre, double squared_reach, const SampleRange& left_out,
-                                       std::uint64_t& looked_at, Accept&& accept) const {
+                                       std::uint64_t& looked_at, Accept&& accept, Absent&& absent) const {
     std::optional<std::uint32_t> found;
     const Box3 place{centre, centre};
-    walk(place, left_out, squared_reach, looked_at, [&](std::uint32_t s) {
-      const double distance = squared_norm(samples_[s] - centre);
+    const auto visit = [&](std::uint32_t s) {
+      const double distance = squared_norm(position(s) - centre);
       if (distance > squared_reach || !accept(s, distance)) return;
       found = s;
       squared_reach = distance;
+    };
+    walk(place, left_out, squared_reach, looked_at, visit, [&](const Place& block) {
+      const BlockSketch& sketch = sketches_[block.index];
+      if (sketch.squared_distance(centre) > squared_reach) return;
+      visit(sketch.scout_sample);
+      absent(block.index);
     });
     return found;
   }
@@ -69,6 +123,7 @@ class SampleBlocks {
     Eight min_x, min_y, min_z, max_x, max_y, max_z;
     Node();
     void set(std::size_t child, const Box3& box);
+    [[nodiscard]] Box3 child(std::size_t i) const;
     [[nodiscard]] Box3 around() const;
     /// From each child to a box.
     [[nodiscard]] Eight squared_distances(const Box3& to) const {
@@ -89,17 +144,32 @@ class SampleBlocks {
     std::uint32_t level, index;
     double squared_distance;
   };
+  /// Groups of eight samples are the level below, blocks of blocks those above.
+  static constexpr std::uint32_t block_level = 1;
+  /// Null where they are elsewhere.
+  struct Block {
+    const Vec3* samples = nullptr;
+    const Node* groups = nullptr;
+  };
+  struct Learned {
+    std::array<Vec3, block_size> samples;
+    Node groups;
+  };
+
+  void build_above(std::vector<Box3> boxes);
+  static void set_groups(std::span<const Vec3> samples, Node& groups);
+
   /// Walking down, no more than eight wait on each of the eleven levels that 2^32 samples have.
   static constexpr std::size_t most_waiting = 8 * 11;
 
-  /// visit(sample) for those in blocks that are not farther from `box` than the root of `squared_reach`, which visit
-  /// may make smaller.
-  template <class Visit>
+  /// visit(sample) for those in groups that are not farther from `box` than the root of `squared_reach`, which visit
+  /// may make smaller, and absent(place) for such blocks that are elsewhere.
+  template <class Visit, class Absent>
   void walk(const Box3& box, const SampleRange& left_out, const double& squared_reach, std::uint64_t& looked_at,
-            Visit&& visit) const {
+            Visit&& visit, Absent&& absent) const {
     std::array<Place, most_waiting> waiting;
     std::size_t count = 0;
-    waiting[count++] = {static_cast<std::uint32_t>(levels_.size()), 0, 0};
+    waiting[count++] = {static_cast<std::uint32_t>(block_level + above_.size()), 0, 0};
     while (count > 0) {
       const Place place = waiting[--count];
       if (place.squared_distance > squared_reach) continue;
@@ -110,7 +180,11 @@ class SampleBlocks {
           if (!left_out.holds(s)) visit(s);
         continue;
       }
-      const auto distances = levels_[place.level - 1][place.index].squared_distances(box);
+      if (place.level == block_level && !knows(place.index)) {
+        absent(place);
+        continue;
+      }
+      const auto distances = node_at(place).squared_distances(box);
       std::size_t nearest = count;
       for (std::uint32_t i = 0; i < branches; ++i) {
         const Place child{place.level - 1, place.index * branches + i, distances[i]};
@@ -123,9 +197,14 @@ class SampleBlocks {
     }
   }
 
-  /// Of a block on level 0, of a node on those above.
+  /// Of blocks that are known, and of all above.
+  [[nodiscard]] const Node& node_at(const Place& place) const {
+    return place.level == block_level ? *blocks_[place.index].groups
+                                      : above_[place.level - block_level - 1][place.index];
+  }
+
   [[nodiscard]] SampleRange range_of(std::uint32_t level, std::uint32_t index) const {
-    const std::uint64_t n = samples_.size(), shift = 3 * (level + 1), first = index;
+    const std::uint64_t n = count_, shift = 3 * (level + 1), first = index;
     return {static_cast<std::uint32_t>(std::min(n, first << shift)),
             static_cast<std::uint32_t>(std::min(n, (first + 1) << shift))};
   }
@@ -133,8 +212,12 @@ class SampleBlocks {
     return outer.begin <= inner.begin && inner.end <= outer.end;
   }
 
-  std::span<const Vec3> samples_;
-  std::vector<std::vector<Node>> levels_; ///< over groups of eight samples, over eight of those, and so on to one
+  std::uint32_t count_;
+  std::vector<Block> blocks_;
+  std::vector<std::vector<Node>> above_; ///< over eight blocks each, over eight of those, and so on to one
+  std::vector<Node> groups_;             ///< where all samples are known
+  std::vector<BlockSketch> sketches_;    ///< else
+  std::deque<Learned> learned_;
 };
 
 } // namespace eigencrust

@@ -60,6 +60,9 @@ std::array<std::uint32_t, 4> vertices_of(Cell c) {
   return {c->vertex(0)->info(), c->vertex(1)->info(), c->vertex(2)->info(), c->vertex(3)->info()};
 }
 
+/// A tetrahedron whose circumsphere holds samples that are elsewhere, perhaps. What is inserted meanwhile may end it.
+using Waiting = std::array<Vertex, 4>;
+
 /// A sample inside the circumsphere of a tetrahedron.
 struct Missing {
   std::uint32_t sample;
@@ -74,15 +77,16 @@ struct Shell {
 
 class TileMaker {
  public:
-  TileMaker(const IndexedArray<VertexIndex, Vec3>& positions, const SampleBlocks& blocks, const SampleRange& range,
-            TileProgress& progress)
-      : positions_(positions.raw()),
-        samples_(positions.size() - cube_corners),
+  TileMaker(std::span<const Vec3> corners, const SampleBlocks& blocks, const SampleRange& range, TileProgress& progress,
+            SampleSupply* supply)
+      : corners_(corners),
+        samples_(blocks.sample_count()),
         blocks_(blocks),
         range_(range),
-        progress_(progress) {
+        progress_(progress),
+        supply_(supply) {
     Box3 box;
-    for (std::size_t i = samples_; i < positions_.size(); ++i) box.add(positions_[i]);
+    for (const Vec3& p : corners) box.add(p);
     rounding_ = 16 * std::numeric_limits<double>::epsilon() * box.diagonal();
   }
 
@@ -93,8 +97,12 @@ class TileMaker {
   }
 
  private:
+  [[nodiscard]] const Vec3& position(std::uint32_t vertex) const {
+    return vertex < samples_ ? blocks_.position(vertex) : corners_[vertex - samples_];
+  }
+
   Vertex insert(std::uint32_t i, Cell near) {
-    const Vec3& p = positions_[i];
+    const Vec3& p = position(i);
     const Vertex v = delaunay_->insert({p.x, p.y, p.z}, near);
     v->info() = i;
     ++vertices_;
@@ -111,29 +119,51 @@ class TileMaker {
   void insert_own() {
     Cell near;
     const auto add = [&](std::uint32_t i) { near = insert(i, near)->cell(); };
-    for (std::uint32_t i = samples_; i < positions_.size(); ++i) add(i);
+    for (std::uint32_t i = 0; i < corners_.size(); ++i) add(samples_ + i);
     for (const std::uint32_t i : in_rounds(range_.size())) add(range_.begin + i);
   }
 
   /// \return false if it was given up
   bool insert_what_matters() {
     measure_margins();
+    known_.resize(samples_);
     std::vector<Cell> open;
     for (auto c = delaunay_->finite_cells_begin(); c != delaunay_->finite_cells_end(); ++c) ask_later(c, open);
-    known_.resize(samples_);
+    do {
+      settle(open);
+      open.clear();
+    } while (fetch(open));
+    return !progress_.given_up();
+  }
+
+  /// Asks the cells and what stands in their place, as long as samples that are known are missing.
+  void settle(std::vector<Cell>& open) {
     while (!open.empty()) {
       std::vector<Vertex> fresh;
       for (const Missing& m : missing_of(open)) {
         fresh.push_back(insert(m.sample, m.near->cell()));
         known_[m.sample] = true;
       }
-      if (progress_.given_up()) return false;
       open.clear();
+      if (progress_.given_up()) return;
       for (const Vertex v : fresh) {
         std::vector<Cell> around;
         delaunay_->finite_incident_cells(v, std::back_inserter(around));
         for (const Cell c : around) ask_later(c, open);
       }
+    }
+  }
+
+  /// What cells wait for; then those are open that are still there. \return false where all is settled, everywhere
+  bool fetch(std::vector<Cell>& open) {
+    if (supply_ == nullptr) return false;
+    std::sort(wanted_.begin(), wanted_.end());
+    wanted_.erase(std::unique(wanted_.begin(), wanted_.end()), wanted_.end());
+    if (!supply_->fetch(wanted_)) return false;
+    wanted_.clear();
+    for (const auto& [a, b, c, d] : std::exchange(waiting_, {})) {
+      Cell cell;
+      if (delaunay_->is_cell(a, b, c, d, cell)) open.push_back(cell);
     }
     return true;
   }
@@ -192,19 +222,31 @@ class TileMaker {
       if (squared_distance < shell.squared_inner) return true;
       if (known_[s]) return false; // no sphere here has one of these inside
       looks_ += looks_as_long_as_a_test;
-      const Vec3& p = positions_[s];
+      const Vec3& p = position(s);
       return delaunay_->side_of_sphere(c, {p.x, p.y, p.z}, true) == CGAL::ON_BOUNDED_SIDE;
     };
-    return blocks_.nearest(shell.centre, shell.squared_outer, range_, looks_, is_inside);
+    std::optional<std::uint32_t> absent;
+    const auto found = blocks_.nearest(shell.centre, shell.squared_outer, range_, looks_, is_inside,
+                                       [&](std::uint32_t block) { absent = absent.value_or(block); });
+    if (!found && absent) wait_for(*absent, c, own_vertex(v));
+    return found;
+  }
+
+  /// One block at a time: the first tetrahedra at the border are so large that all samples are in their spheres.
+  void wait_for(std::uint32_t block, Cell c, std::uint32_t own) {
+    wanted_.push_back(block);
+    Waiting& w = waiting_.emplace_back(Waiting{c->vertex(0), c->vertex(1), c->vertex(2), c->vertex(3)});
+    // It is looked for around the first; around corners of the cube there are too many.
+    std::iter_swap(w.begin(), std::find_if(w.begin(), w.end(), [&](Vertex k) { return k->info() == own; }));
   }
 
   /// The circumcentre is off by at most a small multiple of half_the_digits, of the radius (see circumcentre), and of
   /// the rounding of coordinates.
   [[nodiscard]] Shell shell_around(const std::array<std::uint32_t, 4>& v) const {
     constexpr double doubt = 64 * std::numeric_limits<float>::epsilon(); // more than that multiple
-    const auto& p = positions_;
-    const Vec3 centre = circumcentre(p[v[0]], p[v[1]], p[v[2]], p[v[3]]);
-    const double r = distance(centre, p[v[0]]);
+    const Vec3& first = position(v[0]);
+    const Vec3 centre = circumcentre(first, position(v[1]), position(v[2]), position(v[3]));
+    const double r = distance(centre, first);
     const double inner = (1 - doubt) * r - rounding_, outer = (1 + doubt) * r + rounding_;
     // A radius without bounds, as of four samples nearly in a plane, says nothing.
     if (!(outer * outer <= std::numeric_limits<double>::max())) return {{}, 0, std::numeric_limits<double>::infinity()};
@@ -253,15 +295,18 @@ class TileMaker {
     return TetrahedronIndex{delaunay_->is_infinite(other) ? no_index : other->info().number};
   }
 
-  const std::vector<Vec3>& positions_;
+  std::span<const Vec3> corners_;
   std::uint32_t samples_;
   const SampleBlocks& blocks_;
   SampleRange range_;
   TileProgress& progress_;
+  SampleSupply* supply_;
   double rounding_ = 0; ///< of distances between coordinates; length
   std::unique_ptr<Delaunay> delaunay_ = std::make_unique<Delaunay>();
   std::vector<double> margins_;
-  std::vector<bool> known_; ///< samples of others that were inserted
+  std::vector<bool> known_;           ///< samples of others that were inserted
+  std::vector<std::uint32_t> wanted_; ///< blocks
+  std::vector<Waiting> waiting_;
   std::uint64_t vertices_ = 0, asked_ = 0, looks_ = 0;
   std::uint64_t inserted_ = 0; ///< since the last report
   std::int64_t reported_cells_ = 0;
@@ -318,9 +363,9 @@ void TileProgress::add(std::uint64_t insertions, std::int64_t tetrahedra) {
            static_cast<std::uint64_t>(all));
 }
 
-std::optional<Tile> make_tile(const IndexedArray<VertexIndex, Vec3>& positions, const SampleBlocks& blocks,
-                              const SampleRange& range, TileProgress& progress) {
-  std::optional<Tile> tile = TileMaker(positions, blocks, range, progress).make();
+std::optional<Tile> make_tile(std::span<const Vec3> corners, const SampleBlocks& blocks, const SampleRange& range,
+                              TileProgress& progress, SampleSupply* supply) {
+  std::optional<Tile> tile = TileMaker(corners, blocks, range, progress, supply).make();
   if (!tile) return {};
   sort_tetrahedra(*tile, range);
   list_open_faces(*tile);

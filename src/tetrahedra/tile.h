@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <eigencrust/types.h>
@@ -53,15 +54,26 @@ struct Tile {
   std::vector<OpenFace> open;
 };
 
+/// Brings samples that are elsewhere.
+class SampleSupply {
+ public:
+  virtual ~SampleSupply() = default;
+  /// Lets the tile's SampleBlocks learn blocks. All tiles call it the same number of times, and each waits for all.
+  /// \param wanted numbers of blocks that are not known, ascending
+  /// \return false where no tile wants any
+  virtual bool fetch(const std::vector<std::uint32_t>& wanted) = 0;
+};
+
 /// Makes a tile from its own samples and those of the others that turn out to matter. A tetrahedron of some of the
 /// samples is one of all exactly if no other sample lies in its circumsphere, so each is asked for the sample
 /// deepest inside it; what is found is inserted, and asked for again what became of it. Among cospherical samples the
 /// coordinates alone decide (Devillers and Teillaud 2011, in CGAL), so all tiles decide alike.
-/// \param positions of the samples and the eight corners of the cube
-/// \param blocks of the samples
+/// \param corners of the cube, eight
+/// \param blocks of the samples; those of the range are known
+/// \param supply of the others; none where all are known
 /// \return none where progress was given up, by this tile when its tetrahedra have too many samples on or near
 /// their circumspheres
-std::optional<Tile> make_tile(const IndexedArray<VertexIndex, Vec3>& positions, const SampleBlocks& blocks,
-                              const SampleRange& range, TileProgress& progress);
+std::optional<Tile> make_tile(std::span<const Vec3> corners, const SampleBlocks& blocks, const SampleRange& range,
+                              TileProgress& progress, SampleSupply* supply = nullptr);
 
 } // namespace eigencrust

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "clouds.h"
-#include "geometry/tetrahedron.h"
+#include "tetrahedra/assemble.h"
 
 namespace eigencrust {
 namespace {
@@ -19,8 +19,56 @@ Tetrahedralization whole(const Points& points) {
   return tetrahedralize(prepare_samples(points, threads), threads);
 }
 
-std::span<const Vec3> samples_of(const Tetrahedralization& t) {
-  return std::span(t.positions.raw()).first(t.sample_count);
+/// What a machine has that knows its own samples alone, and asks for others.
+class FewSamples : public SampleSupply {
+ public:
+  FewSamples(const Tetrahedralization& all, const SampleRange& own)
+      : all_(all), blocks(all.sample_count, sketches(all)) {
+    for (std::uint32_t b = 0; b < blocks.block_count(); ++b)
+      if (own.holds(blocks.samples_of(b).begin)) learn(b);
+  }
+  bool fetch(const std::vector<std::uint32_t>& wanted) override {
+    EXPECT_TRUE(std::is_sorted(wanted.begin(), wanted.end()));
+    for (const std::uint32_t b : wanted) {
+      EXPECT_FALSE(blocks.knows(b));
+      learn(b);
+    }
+    fetched += wanted.size();
+    return !wanted.empty();
+  }
+
+ private:
+  static std::vector<BlockSketch> sketches(const Tetrahedralization& all) {
+    const SampleBlocks whole(samples_of(all), Threads(1));
+    std::vector<BlockSketch> result;
+    for (std::uint32_t b = 0; b < whole.block_count(); ++b) result.push_back(whole.sketch_of(b));
+    return result;
+  }
+  void learn(std::uint32_t b) {
+    const SampleRange range = blocks.samples_of(b);
+    blocks.learn(b, samples_of(all_).subspan(range.begin, range.size()));
+  }
+  const Tetrahedralization& all_;
+
+ public:
+  SampleBlocks blocks;
+  std::size_t fetched = 0;
+};
+
+/// The same from own samples and those that were asked for. \return the blocks that were
+std::size_t expect_same_from_few(const Tetrahedralization& t, const SampleRange& range, const Tile& expected) {
+  FewSamples few(t, range);
+  const WatchGrowth watch;
+  TileProgress progress(watch, range.size());
+  const auto tile = make_tile(corners_of(t), few.blocks, range, progress, &few);
+  if (!tile) {
+    ADD_FAILURE() << "given up";
+    return 0;
+  }
+  EXPECT_EQ(tile->tetrahedra, expected.tetrahedra);
+  EXPECT_EQ(tile->neighbours, expected.neighbours);
+  EXPECT_EQ(tile->open, expected.open);
+  return few.fetched;
 }
 
 /// Every part, however small, has the tetrahedra of the whole, and knows which faces others have, too.
@@ -30,10 +78,18 @@ void expect_same_in_parts(const Tetrahedralization& t, std::uint32_t parts) {
   std::vector<std::array<VertexIndex, 4>> tetrahedra;
   std::vector<std::array<VertexIndex, 3>> open;
   for (std::uint32_t i = 0; i < parts; ++i) {
-    const auto at = [&](std::uint64_t k) { return static_cast<std::uint32_t>(t.sample_count * k / parts); };
+    // Of few parts the borders are those of blocks.
+    const std::uint32_t step = t.sample_count / parts > 2 * SampleBlocks::block_size ? SampleBlocks::block_size : 1;
+    const auto at = [&](std::uint64_t k) {
+      const auto even = static_cast<std::uint32_t>(t.sample_count * k / parts);
+      return k == parts ? even : even / step * step;
+    };
     TileProgress progress(watch, t.sample_count);
-    const auto tile = make_tile(t.positions, blocks, {at(i), at(i + 1)}, progress);
+    const auto tile = make_tile(corners_of(t), blocks, {at(i), at(i + 1)}, progress);
     ASSERT_TRUE(tile);
+    const auto whole_blocks = [](std::uint32_t k) { return k % SampleBlocks::block_size == 0; };
+    if (whole_blocks(at(i)) && (whole_blocks(at(i + 1)) || i + 1 == parts))
+      expect_same_from_few(t, {at(i), at(i + 1)}, *tile);
     const auto first = static_cast<std::uint32_t>(tetrahedra.size());
     tetrahedra.insert(tetrahedra.end(), tile->tetrahedra.begin(), tile->tetrahedra.end());
     ASSERT_LE(tetrahedra.size(), t.tetrahedra.size());
@@ -106,6 +162,23 @@ TEST(Tiles, OfTwoCurvesThatSeeEachOther) {
   expect_parts_fit(points);
 }
 
+TEST(Tiles, AskForFewSamplesOfOthers) {
+  // Hills, of which each sphere above touches few.
+  Points hills = clouds::jittered(clouds::lattice(200, 200, 1), 0.2, 1);
+  for (Vec3& p : hills) p.z += 8 * std::sin(p.x / 9) * std::cos(p.y / 13 + p.x / 50);
+  const Tetrahedralization t = whole(hills);
+  const SampleBlocks blocks(samples_of(t), Threads(1));
+  const WatchGrowth watch;
+  for (const std::uint32_t begin : {0u, 8000u, 29952u}) {
+    const SampleRange range{begin, begin + 10048};
+    TileProgress progress(watch, range.size());
+    const auto tile = make_tile(corners_of(t), blocks, range, progress);
+    ASSERT_TRUE(tile);
+    const std::size_t others = blocks.block_count() - range.size() / SampleBlocks::block_size;
+    EXPECT_LT(expect_same_from_few(t, range, *tile), others * 6 / 10);
+  }
+}
+
 TEST(Tiles, FarFromTheOriginAndOfDifferentDensity) {
   expect_parts_fit(clouds::joined(clouds::moved(clouds::random_box(1000, 4), {1e6, -1e6, 1e3}, 1e-3),
                                   clouds::moved(clouds::random_box(500, 5), {1e6, -1e6, 1e3}, 10)));
@@ -117,11 +190,11 @@ TEST(Tiles, AreGivenUpWhereAllSamplesLieOnOneSphere) {
   const SampleBlocks blocks(samples_of(t), Threads(1));
   const WatchGrowth watch;
   TileProgress progress(watch, t.sample_count);
-  EXPECT_FALSE(make_tile(t.positions, blocks, {0, 10000}, progress));
+  EXPECT_FALSE(make_tile(corners_of(t), blocks, {0, 10000}, progress));
   EXPECT_TRUE(progress.given_up());
   // Then the others need not go on, but one that knows all samples is certain of all.
-  EXPECT_FALSE(make_tile(t.positions, blocks, {10000, 20000}, progress));
-  EXPECT_TRUE(make_tile(t.positions, blocks, {0, 20000}, progress));
+  EXPECT_FALSE(make_tile(corners_of(t), blocks, {10000, 20000}, progress));
+  EXPECT_TRUE(make_tile(corners_of(t), blocks, {0, 20000}, progress));
 }
 
 TEST(Tiles, TellHowFarTheyHaveCome) {
@@ -137,12 +210,12 @@ TEST(Tiles, TellHowFarTheyHaveCome) {
   };
   TileProgress progress(watch, t.sample_count);
   for (const SampleRange& range : {SampleRange{0, 1500}, SampleRange{1500, 3000}})
-    EXPECT_TRUE(make_tile(t.positions, blocks, range, progress));
+    EXPECT_TRUE(make_tile(corners_of(t), blocks, range, progress));
   EXPECT_EQ(fraction, 1);
   EXPECT_GE(tetrahedra, t.tetrahedra.size()); // those beyond the cube, and what both tiles have
   const WatchGrowth refuse = [](double, std::uint64_t) { throw std::runtime_error("enough"); };
   TileProgress refused(refuse, t.sample_count);
-  EXPECT_THROW(make_tile(t.positions, blocks, {0, 1500}, refused), std::runtime_error);
+  EXPECT_THROW(make_tile(corners_of(t), blocks, {0, 1500}, refused), std::runtime_error);
 }
 
 TEST(Tiles, AreTheSameForAnyNumberOfThreads) {
@@ -180,7 +253,8 @@ TEST(SampleBlocks, FindTheNearestOutsideARange) {
       }
       std::uint64_t looks = 0;
       const auto even = [](std::uint32_t s, double) { return s % 2 == 0; };
-      EXPECT_EQ(blocks.nearest(centre, reach, left_out, looks, even), expected);
+      const auto never = [](std::uint32_t) { ADD_FAILURE() << "all blocks are known"; };
+      EXPECT_EQ(blocks.nearest(centre, reach, left_out, looks, even, never), expected);
     }
   }
 }
