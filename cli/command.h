@@ -11,6 +11,7 @@
 
 #include <eigencrust/eigencrust.h>
 #include <eigencrust/io.h>
+#include <eigencrust/ranks.h>
 #include <eigencrust/validate.h>
 
 #include "files.h"
@@ -25,6 +26,7 @@ struct Arguments {
   std::vector<std::string> words, command;
   /// If given, a verb hands its options to it and does nothing else.
   std::function<void(const OptionTable&)> describe{};
+  Ranks* ranks = nullptr; ///< that take over parts of the work
 };
 
 // One function per verb. \return the exit status; errors are thrown

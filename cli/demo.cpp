@@ -48,7 +48,7 @@ int demo_verb(const Arguments& arguments) {
     std::vector<std::string> command{"eigencrust"};
     command.insert(command.end(), words.begin(), words.end());
     const bool named = words.front() == "check" || words.front() == "render";
-    return verb({{words.begin() + (named ? 1 : 0), words.end()}, command, {}});
+    return verb({{words.begin() + (named ? 1 : 0), words.end()}, command, {}, arguments.ranks});
   };
   const int status = call(reconstruct_verb, {scan, "-o", mesh, "--report", report});
   if (status != 0) return status;

@@ -210,7 +210,7 @@ void MethodRun::reconstruct(const Options& options) {
   Options complete = options;
   // A page shows outliers, of which the other methods know nothing.
   complete.point_results = options.point_results || (page_ && options.method == Method::eigencrust);
-  result = eigencrust::reconstruct(cloud, complete, page_ ? *page_ : *observer_);
+  result = eigencrust::reconstruct(cloud, complete, page_ ? *page_ : *observer_, request_.ranks);
   if (page_) page_->finished(cloud, result);
   name_rows_of_files();
   result.report.command = command_;

@@ -32,6 +32,7 @@ struct Request {
   std::map<std::string, MethodValue, std::less<>> method; ///< by the option's name in the library's table
   std::vector<std::string> outside_files, inside_files;
   bool quiet = false;
+  Ranks* ranks = nullptr; ///< see Arguments
 };
 
 /// -o, --format, --report, --each. \param what "Mesh to write (ply obj off stl glb 3mf)"

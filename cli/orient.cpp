@@ -21,6 +21,7 @@ int add_normals(const Request& request, const std::vector<std::string>& command,
 
 int orient_verb(const Arguments& arguments) {
   Request request;
+  request.ranks = arguments.ranks;
   std::string keep;
   bool drop_outliers = false;
   OptionTable app("The cloud with unit normals that look outward; those of outliers are NaN.", "eigencrust orient");

@@ -26,6 +26,7 @@ void check_room(const Request& r, const std::string& keep) {
 
 int outliers_verb(const Arguments& arguments) {
   Request request;
+  request.ranks = arguments.ranks;
   std::string keep;
   OptionTable app("The cloud with a flag for the points that belong to the surface, and how sure that is.",
                   "eigencrust outliers");

@@ -74,6 +74,7 @@ int reconstruct(const Request& request, const std::vector<std::string>& command)
 
 int reconstruct_verb(const Arguments& arguments) {
   Request request;
+  request.ranks = arguments.ranks;
   OptionTable app("Point clouds to a closed, manifold, outward oriented triangle mesh.", "eigencrust reconstruct");
   add_input_options(app, request.input);
   add_output_options(app, request,

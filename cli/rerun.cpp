@@ -91,7 +91,7 @@ int rerun_verb(const Arguments& arguments) {
   words.insert(words.begin() + (find_verb(words.front()) != nullptr ? 1 : 0), added.begin(), added.end());
   std::vector<std::string> command{"eigencrust"};
   command.insert(command.end(), words.begin(), words.end());
-  return run_command({words, command, {}});
+  return run_command({words, command, {}, arguments.ranks});
 }
 
 } // namespace eigencrust::cli

@@ -94,9 +94,9 @@ int run_command(const Arguments& all) {
   const bool everything = first == "--help-all";
   if (first == "--help" || first == "-h" || first == "help" || everything) {
     if (all.words.size() > 1 && find_verb(all.words[1]) != nullptr)
-      return find_verb(all.words[1])->call({{everything ? "--help-all" : "--help"}, all.command, {}});
+      return find_verb(all.words[1])->call({{everything ? "--help-all" : "--help"}, all.command, {}, {}});
     std::cout << overview() << "\n";
-    return reconstruct_verb({{everything ? "--help-all" : "--help"}, all.command, {}});
+    return reconstruct_verb({{everything ? "--help-all" : "--help"}, all.command, {}, {}});
   }
   if (first == "--version") {
     std::cout << "eigencrust " << version() << "\n";
@@ -107,7 +107,7 @@ int run_command(const Arguments& all) {
     require_input(first);
     return reconstruct_verb(all);
   }
-  return verb->call({{all.words.begin() + 1, all.words.end()}, all.command, {}});
+  return verb->call({{all.words.begin() + 1, all.words.end()}, all.command, {}, all.ranks});
 }
 
 } // namespace eigencrust::cli

@@ -9,7 +9,8 @@ build_packages=(g++ cmake ninja-build libcgal-dev libeigen3-dev libspectra-dev l
   nlohmann-json3-dev libtbb-dev libpng-dev zlib1g-dev libssl-dev libpugixml-dev
   libtinygltf-dev lib3mf-dev)
 tool_packages=(libcli11-dev) # of the tools and the benchmarks
-test_packages=("${tool_packages[@]}" libgtest-dev libgmock-dev clang-format)
+mpi_packages=(libopenmpi-dev openmpi-bin)
+test_packages=("${tool_packages[@]}" "${mpi_packages[@]}" libgtest-dev libgmock-dev clang-format)
 # What the Python package is built with, and what its tests need beside it. Open3D comes with 200 MB of others.
 python_packages=(pybind11-dev python3-dev python3-numpy)
 python_test_packages=(python3-pip python3-venv python3-setuptools python3-wheel python3-open3d)

@@ -23,7 +23,7 @@ step "thread sanitizer"
 "$repository/scripts/soak.sh" threads 2000
 
 step "build"
-configure test build-test -DEIGENCRUST_SANITIZED_BUILD="$repository/build-asan"
+configure test build-test -DEIGENCRUST_SANITIZED_BUILD="$repository/build-asan" -DEIGENCRUST_BUILD_MPI=ON
 cmake --build "$repository/build-test" --parallel "$(job_count)"
 
 step "tests"

@@ -53,13 +53,13 @@ void reconstruct_spectral(const PointCloud& cloud, const Context& context, Resul
   result.normals = std::move(points.normals);
 }
 
-Result reconstruct(const PointCloud& cloud, const Options& options, Observer& observer) {
+Result reconstruct(const PointCloud& cloud, const Options& options, Observer& observer, Ranks* ranks) {
   check_options(options);
   check_cloud(cloud);
   check_memory(cloud, options.max_memory);
   Result result;
   result.report.options = options;
-  Run run(result.report, observer);
+  Run run(result.report, observer, ranks);
   const Threads threads(options.threads, run.cancellation());
   if (options.method == Method::eigencrust)
     reconstruct_spectral(cloud, {options, run, threads}, result);

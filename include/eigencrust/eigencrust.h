@@ -8,6 +8,7 @@
 #include <eigencrust/error.h>
 #include <eigencrust/observer.h>
 #include <eigencrust/options.h>
+#include <eigencrust/ranks.h>
 #include <eigencrust/report.h>
 #include <eigencrust/types.h>
 
@@ -39,12 +40,14 @@ struct Result {
 /// depends on the set of points and the options alone, not on the order of the rows (but for source_index of
 /// duplicates: the smallest row) nor on the number of threads.
 ///
+/// \param ranks processes that take over parts of the work; none: this one does all
 /// \throws Error{usage}      options out of range
 ///         Error{input}      fewer than 5 distinct finite points, all coplanar or collinear, mismatched arrays
 ///         Error{no_surface} the labels leave no surface
 ///         Error{cancelled}  the observer asked for it
 ///         Error{memory}     the forecast of memory exceeds options.max_memory
 ///         std::bad_alloc    memory exhausted
-Result reconstruct(const PointCloud& cloud, const Options& options = {}, Observer& observer = *default_observer());
+Result reconstruct(const PointCloud& cloud, const Options& options = {}, Observer& observer = *default_observer(),
+                   Ranks* ranks = nullptr);
 
 } // namespace eigencrust

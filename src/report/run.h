@@ -12,6 +12,7 @@
 #include <utility>
 
 #include <eigencrust/observer.h>
+#include <eigencrust/ranks.h>
 #include <eigencrust/report.h>
 #include <eigencrust/stages.h>
 
@@ -22,7 +23,9 @@ namespace eigencrust {
 /// Runs stages one after another and writes them down.
 class Run {
  public:
-  Run(Report& report, Observer& observer) : report_(report), observer_(observer) {}
+  /// \param ranks that take over parts of the work; may be none
+  Run(Report& report, Observer& observer, Ranks* ranks = nullptr)
+      : report_(report), observer_(observer), ranks_(ranks) {}
 
   /// Runs one stage and writes down what describe() has to say of its result.
   template <class Stage>
@@ -72,6 +75,7 @@ class Run {
   }
 
   Report& report() { return report_; }
+  [[nodiscard]] Ranks* ranks() const { return ranks_; }
   /// Of the last stage.
   [[nodiscard]] const std::string& name() const { return report_.stages.back().name; }
 
@@ -105,6 +109,7 @@ class Run {
   };
   Report& report_;
   Observer& observer_;
+  Ranks* ranks_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

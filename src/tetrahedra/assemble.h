@@ -24,6 +24,9 @@ inline std::span<const Vec3> corners_of(const Tetrahedralization& t) {
   return std::span(t.positions.raw()).last(cube_corners);
 }
 
+/// Of all samples, one for each thread; one where that is given up.
+std::vector<Tile> make_tiles(const Tetrahedralization& enclosed, const Threads& threads, const WatchGrowth& watch);
+
 /// \param tiles of ranges that follow one another and hold all samples
 /// \param t gets the tetrahedra
 /// \throws Error{guarantee} where they do not fit together, Error{memory} for more than can be numbered

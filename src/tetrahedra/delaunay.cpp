@@ -49,13 +49,13 @@ void give_back_freed_memory() {
 #endif
 }
 
+} // namespace
+
 std::vector<Tile> make_tiles(const Tetrahedralization& t, const Threads& threads, const WatchGrowth& watch) {
   auto tiles = try_tiles(t, tiles_of(t.sample_count, threads), threads, watch);
   if (!tiles) tiles = try_tiles(t, {{0, t.sample_count}}, threads, watch);
   return std::move(*tiles);
 }
-
-} // namespace
 
 Tetrahedralization tetrahedralize(Samples samples, const Threads& threads) {
   return tetrahedralize(std::move(samples), threads, WatchGrowth{});

@@ -33,8 +33,11 @@ Scene make_scene(const PointCloud& cloud, const Context& context) {
   Samples samples = run.stage("samples", [&] { return prepare_samples(cloud.points, threads); });
   scene.sample_of_row = std::move(samples.of_row);
   scene.measures = run.stage("sample_model", [&] { return measure(cloud, samples, options, threads); });
-  scene.tetrahedralization =
-      run.stage("delaunay", [&] { return tetrahedralize(std::move(samples), threads, watch_of(cloud, context)); });
+  scene.tetrahedralization = run.stage("delaunay", [&] {
+    const WatchGrowth watch = watch_of(cloud, context);
+    return run.ranks() != nullptr ? run.ranks()->tetrahedralize(std::move(samples), threads, watch, options.max_memory)
+                                  : tetrahedralize(std::move(samples), threads, watch);
+  });
   describe(scene.measures, run);
   const Tetrahedralization& t = scene.tetrahedralization;
   run.product("samples", [&] { return snapshot_of_samples(t, scene.measures.model); });
