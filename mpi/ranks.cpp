@@ -6,7 +6,6 @@
 
 #include "parallel/threads.h"
 #include "tetrahedra/assemble.h"
-#include "tiles.h"
 
 namespace eigencrust::mpi {
 namespace {
@@ -29,11 +28,24 @@ Tetrahedralization OtherRanks::tetrahedralize(Samples samples, const Threads& th
                                               const std::function<void(double, std::uint64_t)>& watch,
                                               std::uint64_t max_memory) {
   Tetrahedralization result = enclose(std::move(samples));
-  messages_.from_root(Task{Work::tiles, max_memory});
-  std::vector<Tile> tiles = make_tiles(messages_, &result, watch);
-  if (tiles.empty()) tiles = make_tiles(result, threads, watch);
+  std::vector<Tile> tiles = make_tiles(result, watch, max_memory, figures_);
+  if (tiles.empty()) tiles = eigencrust::make_tiles(result, threads, watch);
   assemble(std::move(tiles), result, threads);
   return result;
+}
+
+std::vector<Tile> OtherRanks::make_tiles(const Tetrahedralization& enclosed, const WatchGrowth& watch,
+                                         std::uint64_t max_memory, TileFigures& figures) const {
+  messages_.from_root(Task{Work::tiles, max_memory});
+  return mpi::make_tiles(messages_, &enclosed, watch, figures);
+}
+
+std::vector<std::pair<std::string, double>> OtherRanks::counts() const {
+  return {{"ranks", messages_.size()},
+          {"rounds", static_cast<double>(figures_.rounds)},
+          {"samples_fetched", static_cast<double>(figures_.samples_fetched)},
+          {"bytes_sent", static_cast<double>(figures_.bytes_sent)},
+          {"memory_of_others", static_cast<double>(figures_.memory_of_others)}};
 }
 
 void OtherRanks::end() { messages_.from_root(Task{}); }
@@ -41,7 +53,8 @@ void OtherRanks::end() { messages_.from_root(Task{}); }
 void serve(const Messages& messages) {
   for (Task task = messages.from_root(Task{}); task.work != Work::end; task = messages.from_root(Task{})) {
     try {
-      make_tiles(messages, nullptr, watch_memory(task.max_memory));
+      TileFigures figures;
+      make_tiles(messages, nullptr, watch_memory(task.max_memory), figures);
     } catch (const std::exception&) { // the root has heard of it
     }
   }

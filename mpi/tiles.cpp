@@ -9,6 +9,7 @@
 #include <optional>
 
 #include <eigencrust/error.h>
+#include <eigencrust/report.h>
 
 #include "geometry/tetrahedron.h"
 #include "parallel/threads.h"
@@ -66,6 +67,7 @@ class Supply : public SampleSupply {
   bool fetch(const std::vector<std::uint32_t>& wanted) override {
     const Round here = progress_.given_up() ? Round::given_up : wanted.empty() ? Round::settled : Round::wanting;
     if (agree(here) != Round::wanting) return false;
+    ++rounds_;
     bring(wanted);
     return true;
   }
@@ -74,6 +76,9 @@ class Supply : public SampleSupply {
   void serve() {
     while (!over_) fetch({});
   }
+
+  [[nodiscard]] std::uint64_t rounds() const { return rounds_; }
+  [[nodiscard]] std::uint64_t samples_fetched() const { return samples_fetched_; }
 
   /// Where this rank failed the others must not wait for it.
   void fail() {
@@ -105,6 +110,7 @@ class Supply : public SampleSupply {
       for (const std::uint32_t block : asked[r]) {
         const std::uint32_t count = blocks_.samples_of(block).size();
         blocks_.learn(block, samples.first(count));
+        samples_fetched_ += count;
         samples = samples.subspan(count);
       }
     }
@@ -115,6 +121,7 @@ class Supply : public SampleSupply {
   SampleBlocks& blocks_;
   TileProgress& progress_;
   bool over_ = false;
+  std::uint64_t rounds_ = 0, samples_fetched_ = 0;
 };
 
 /// In words that another rank can throw.
@@ -230,7 +237,9 @@ std::vector<Tile> gather(const Messages& messages, Tile own) {
 
 } // namespace
 
-std::vector<Tile> make_tiles(const Messages& messages, const Tetrahedralization* enclosed, const WatchGrowth& watch) {
+std::vector<Tile> make_tiles(const Messages& messages, const Tetrahedralization* enclosed, const WatchGrowth& watch,
+                             TileFigures& figures) {
+  const std::uint64_t sent_before = messages.bytes_sent();
   const Frame frame = messages.from_root(frame_of(enclosed));
   SampleBlocks blocks(frame.samples, sketch(messages, enclosed));
   const Shares shares(frame.samples, blocks.block_count(), messages.size());
@@ -251,8 +260,14 @@ std::vector<Tile> make_tiles(const Messages& messages, const Tetrahedralization*
   const std::uint64_t tetrahedra = messages.sum(tile ? tile->tetrahedra.size() : 0);
   together(
       messages, [&] { if (messages.is_root() && watch) watch(1, tetrahedra); }, [] {});
+  figures = {};
   if (progress.given_up()) return {};
-  return gather(messages, tile ? std::move(*tile) : Tile{});
+  std::vector<Tile> tiles = gather(messages, tile ? std::move(*tile) : Tile{});
+  figures.rounds = supply.rounds();
+  figures.samples_fetched = messages.sum(supply.samples_fetched());
+  figures.bytes_sent = messages.sum(messages.bytes_sent() - sent_before);
+  figures.memory_of_others = messages.largest(messages.is_root() ? 0 : peak_memory_bytes());
+  return tiles;
 }
 
 } // namespace eigencrust::mpi

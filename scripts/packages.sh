@@ -10,6 +10,7 @@ build_packages=(g++ cmake ninja-build libcgal-dev libeigen3-dev libspectra-dev l
   libtinygltf-dev lib3mf-dev)
 tool_packages=(libcli11-dev) # of the tools and the benchmarks
 mpi_packages=(libopenmpi-dev openmpi-bin)
+slepc_packages=(libslepc-real-dev pkg-config) # 300 MB of others
 test_packages=("${tool_packages[@]}" "${mpi_packages[@]}" libgtest-dev libgmock-dev clang-format)
 # What the Python package is built with, and what its tests need beside it. Open3D comes with 200 MB of others.
 python_packages=(pybind11-dev python3-dev python3-numpy)

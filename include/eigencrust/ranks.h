@@ -5,6 +5,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <eigencrust/types.h>
 
@@ -24,6 +27,8 @@ class Ranks {
   virtual Tetrahedralization tetrahedralize(Samples samples, const Threads& threads,
                                             const std::function<void(double, std::uint64_t)>& watch,
                                             std::uint64_t max_memory) = 0;
+  /// What there is to know of the last work, for the counts of its stage: name and value, see docs/report.md.
+  [[nodiscard]] virtual std::vector<std::pair<std::string, double>> counts() const = 0;
 };
 
 } // namespace eigencrust

@@ -38,6 +38,8 @@ Scene make_scene(const PointCloud& cloud, const Context& context) {
     return run.ranks() != nullptr ? run.ranks()->tetrahedralize(std::move(samples), threads, watch, options.max_memory)
                                   : tetrahedralize(std::move(samples), threads, watch);
   });
+  if (run.ranks() != nullptr)
+    for (const auto& [what, value] : run.ranks()->counts()) run.count(what, value);
   describe(scene.measures, run);
   const Tetrahedralization& t = scene.tetrahedralization;
   run.product("samples", [&] { return snapshot_of_samples(t, scene.measures.model); });
