@@ -4,6 +4,8 @@
 
 # More ranks than cores are wanted here, and tests may run as root.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+# Containers may forbid what these are for.
+export OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_btl_vader_single_copy_mechanism=none
 
 ordinary=$(dirname -- "$program")/eigencrust
 
@@ -12,7 +14,7 @@ ranks() {
   local count=$1
   shift
   status=0
-  timeout 120 mpiexec -n "$count" "$program" "$@" >out 2>err </dev/null || status=$?
+  timeout 250 mpiexec -n "$count" "$program" "$@" >out 2>err </dev/null || status=$?
 }
 
 # expect_same_mesh CLOUD: on 1, 2, 3, 4 and 8 ranks.
