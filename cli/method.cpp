@@ -78,6 +78,9 @@ void add_run_options(OptionTable& app, Request& r) {
       ->capture_default_str();
   app.add_option("--dump-stages", r.dump_stages, "Folder for the stages' products as PLY files")
       ->type_name(folder_to_write);
+  app.add_option("--temp-dir", r.temp_dir, "Folder in which the tetrahedra are kept until the result is there")
+      ->type_name("DIR");
+  app.add_flag("--resume", r.resume, "Take the tetrahedra that an ended run of these points left in --temp-dir");
   app.add_flag("-q,--quiet", r.quiet, "Print nothing but errors");
 }
 
@@ -163,10 +166,15 @@ void check_outputs(const Request& r, OutputKind kind) {
   check_files({inputs_of(r), outputs_of(r), {}});
   for (const std::string& path : {r.output, r.report})
     if (!path.empty() && !is_standard_output(path)) require_writable(path);
-  if (r.dump_stages.empty() || is_folder(r.dump_stages)) return;
-  std::error_code ignored; // whatever it is, the folder cannot be used
-  if (!fs::create_directories(r.dump_stages, ignored))
-    throw Error(ErrorKind::usage, r.dump_stages, "the folder cannot be created", "choose another one");
+  if (r.resume && r.temp_dir.empty())
+    throw Error(ErrorKind::usage, "--resume", "nothing says where the ended run kept its work",
+                "add --temp-dir with the folder that it had");
+  for (const std::string& folder : {r.dump_stages, r.temp_dir}) {
+    if (folder.empty() || is_folder(folder)) continue;
+    std::error_code ignored; // whatever it is, the folder cannot be used
+    if (!fs::create_directories(folder, ignored))
+      throw Error(ErrorKind::usage, folder, "the folder cannot be created", "choose another one");
+  }
 }
 
 MethodRun::MethodRun(const Request& request, std::vector<std::string> command, OutputKind kind)
@@ -210,7 +218,11 @@ void MethodRun::reconstruct(const Options& options) {
   Options complete = options;
   // A page shows outliers, of which the other methods know nothing.
   complete.point_results = options.point_results || (page_ && options.method == Method::eigencrust);
-  result = eigencrust::reconstruct(cloud, complete, page_ ? *page_ : *observer_, request_.ranks);
+  if (!request_.temp_dir.empty())
+    kept_ = std::make_unique<KeptTetrahedra>(request_.temp_dir, request_.resume, request_.ranks);
+  result = eigencrust::reconstruct(cloud, complete, page_ ? *page_ : *observer_, kept_ ? kept_.get() : request_.ranks);
+  if (kept_)
+    for (const std::string& text : kept_->warnings()) warn_at_once(text);
   if (page_) page_->finished(cloud, result);
   name_rows_of_files();
   result.report.command = command_;
@@ -243,6 +255,7 @@ void MethodRun::finish(const std::function<WriteResult(OutputFiles&, const std::
   Commit commit;
   files.put_in_place();
   commit.done(report.broken_guarantees.empty() ? 0 : static_cast<int>(ErrorKind::guarantee));
+  if (kept_) kept_->forget();
   stage.end();
   clear_progress();
   if (request_.quiet) return;

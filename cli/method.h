@@ -11,6 +11,7 @@
 #include <eigencrust/page.h>
 
 #include "command.h"
+#include "kept_tetrahedra.h"
 #include "progress.h"
 
 namespace eigencrust::cli {
@@ -31,6 +32,8 @@ struct Request {
   bool each = false;
   std::map<std::string, MethodValue, std::less<>> method; ///< by the option's name in the library's table
   std::vector<std::string> outside_files, inside_files;
+  std::string temp_dir; ///< empty: nothing is kept
+  bool resume = false;
   bool quiet = false;
   Ranks* ranks = nullptr; ///< see Arguments
 };
@@ -84,6 +87,7 @@ class MethodRun {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::unique_ptr<Observer> observer_;
   std::unique_ptr<PageObserver> page_; ///< where the report is a page
+  std::unique_ptr<KeptTetrahedra> kept_;
   ReadReport read_;
   std::vector<std::string> told_; ///< warnings printed before the work
   void warn_at_once(const std::string& text);

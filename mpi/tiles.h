@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "messages.h"
-#include "tetrahedra/growth.h"
 #include "tetrahedra/tile.h"
 
 namespace eigencrust::mpi {

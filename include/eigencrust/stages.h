@@ -41,6 +41,12 @@ double resolve_grid_spacing(const LengthChoice& option, const Samples& samples, 
 /// their bounding box. Each thread makes those of a part of the samples.
 /// \throws Error{input} when all samples are coplanar or collinear
 Tetrahedralization tetrahedralize(Samples samples, const Threads& threads);
+/// A triangulation can be watched while it grows: most clouds have seven tetrahedra per sample, some have thousands.
+/// Called every few samples, from all threads, with the fraction done and the number of tetrahedra so far. May throw to
+/// end the work.
+using WatchGrowth = std::function<void(double, std::uint64_t)>;
+/// The same, watched.
+Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const WatchGrowth& watch);
 /// The tetrahedra around each vertex.
 VertexStars vertex_stars(const Tetrahedralization& tetrahedralization, const Threads& threads);
 

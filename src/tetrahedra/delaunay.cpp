@@ -10,7 +10,6 @@
 
 #include "parallel/threads.h"
 #include "tetrahedra/assemble.h"
-#include "tetrahedra/growth.h"
 #include "tetrahedra/sample_blocks.h"
 #include "tetrahedra/tile.h"
 

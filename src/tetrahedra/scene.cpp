@@ -6,7 +6,6 @@
 #include <thread>
 
 #include "report/snapshots.h"
-#include "tetrahedra/growth.h"
 
 namespace eigencrust {
 namespace {

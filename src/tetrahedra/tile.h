@@ -10,9 +10,8 @@
 #include <span>
 #include <vector>
 
-#include <eigencrust/types.h>
+#include <eigencrust/stages.h>
 
-#include "tetrahedra/growth.h"
 #include "tetrahedra/sample_blocks.h"
 
 namespace eigencrust {
