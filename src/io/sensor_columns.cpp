@@ -9,8 +9,12 @@ namespace eigencrust::io {
 namespace {
 
 /// Names of columns by which programs tell where the sensor stood.
-constexpr std::array<std::array<const char*, 3>, 3> usual_names = {
-    {{"sx", "sy", "sz"}, {"x_origin", "y_origin", "z_origin"}, {"vp_x", "vp_y", "vp_z"}}};
+constexpr std::array<std::array<const char*, 3>, 6> usual_names = {{{"sx", "sy", "sz"},
+                                                                    {"x_origin", "y_origin", "z_origin"},
+                                                                    {"vp_x", "vp_y", "vp_z"},
+                                                                    {"sensor_x", "sensor_y", "sensor_z"},
+                                                                    {"scanner_x", "scanner_y", "scanner_z"},
+                                                                    {"viewpoint_x", "viewpoint_y", "viewpoint_z"}}};
 
 const Attribute* find_column(const PointCloud& cloud, const char* name) {
   for (const Attribute& attribute : cloud.attributes)

@@ -16,7 +16,7 @@ struct SensorColumns {
   std::string names;        ///< as the file has them, for messages
   std::vector<Vec3> places; ///< one per point, perhaps not finite
 };
-/// The attributes sx sy sz, x_origin y_origin z_origin or vp_x vp_y vp_z (in upper or lower case), if the
+/// The attributes sx sy sz, x_origin y_origin z_origin, vp_x vp_y vp_z and their like (in upper or lower case), if the
 /// cloud has them.
 std::optional<SensorColumns> find_sensor_columns(const PointCloud& cloud);
 

@@ -46,7 +46,8 @@ class IoSensors : public ::testing::Test {
 
 TEST_F(IoSensors, ColumnsOfPointClouds) {
   const std::string rows = "0 0 0 1 2 3\n1 0 0 4 5 6\n0 1 0 1 2 3\n0 0 1 nan 2 3\n";
-  for (const std::string names : {"sx sy sz", "x_origin y_origin z_origin", "SX SY SZ"}) {
+  for (const std::string names : {"sx sy sz", "x_origin y_origin z_origin", "SX SY SZ", "sensor_x sensor_y sensor_z",
+                                  "Scanner_X Scanner_Y Scanner_Z", "viewpoint_x viewpoint_y viewpoint_z"}) {
     std::istringstream words(names);
     std::string header =
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
