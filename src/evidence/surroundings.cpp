@@ -28,6 +28,10 @@ constexpr double most_stacked = 0.5, perhaps_stacked = 0.65;
 constexpr double cap_of_body = 2;
 // Lenses and plates thinner than their samples are apart are not stacked; but the hull goes along both of their sides.
 constexpr double most_on_hull = 0.5;
+// Walls lean by less than 15° (the sine), and are more of the hull than upright slivers at the rim of flat ground.
+constexpr double most_leaning = 0.26, least_walls = 0.05;
+// What stands on z is taken to be ground first: of two sides of a façade nothing tells the one that was seen.
+constexpr int z = 2;
 
 /// Samples spread evenly over all, at most about `looked_at`.
 std::vector<SampleIndex> some_samples(const Tetrahedralization& t) {
@@ -155,25 +159,31 @@ void for_each_hull_triangle(const Tetrahedralization& t, Meet&& meet) {
   }
 }
 
+/// Is a triangle of the hull one among neighbouring samples? Others hang between parts of the scene.
+bool is_borne_out(const Scene& scene, const std::array<SampleIndex, 3>& corner) {
+  const Tetrahedralization& t = scene.tetrahedralization;
+  double longest = 0, spacing = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    longest = std::max(longest, norm(t.positions[corner[(k + 1) % 3]] - t.positions[corner[k]]));
+    spacing += static_cast<double>(scene.measures.model.spacing[corner[k]]) / static_cast<double>(corner.size());
+  }
+  return longest <= longest_edge * spacing;
+}
+
 /// The share of the hull's shadow along the axis that triangles among neighbouring samples cast, on the side where that
 /// is less: both sides of a closed body that is convex or flat are on its hull, of ground at most one.
 double share_on_hull(const Scene& scene, int axis) {
   const Tetrahedralization& t = scene.tetrahedralization;
   const Vec3 up = direction_of(static_cast<Axis>(2 * axis));
-  std::array<double, 2> short_ones{}, all{};
+  std::array<double, 2> borne_out{}, all{};
   for_each_hull_triangle(t, [&](const std::array<SampleIndex, 3>& corner, VertexIndex beyond) {
-    double longest = 0, spacing = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      longest = std::max(longest, norm(t.positions[corner[(k + 1) % 3]] - t.positions[corner[k]]));
-      spacing += static_cast<double>(scene.measures.model.spacing[corner[k]]) / static_cast<double>(corner.size());
-    }
     const Vec3& p = t.positions[corner[0]];
     const Vec3 n = cross(t.positions[corner[1]] - p, t.positions[corner[2]] - p);
     const bool outward = dot(n, t.positions[beyond] - p) > 0, upward = (dot(n, up) > 0) == outward;
     all[upward] += std::fabs(dot(n, up));
-    if (longest <= longest_edge * spacing) short_ones[upward] += std::fabs(dot(n, up));
+    if (is_borne_out(scene, corner)) borne_out[upward] += std::fabs(dot(n, up));
   });
-  return std::min(short_ones[0] / all[0], short_ones[1] / all[1]);
+  return std::min(borne_out[0] / all[0], borne_out[1] / all[1]);
 }
 
 /// The part of the hull's area that each sample on it stands for; 0 for all others.
@@ -187,12 +197,10 @@ IndexedArray<SampleIndex, double> hull_area(const Tetrahedralization& t) {
   return area;
 }
 
-/// Where no sensor is known.
+/// How the samples lie.
 Surroundings reading_of_samples(const Scene& scene, const Threads& threads) {
   Surroundings result;
   if (scene.tetrahedralization.sample_count < least_samples) return result;
-  // What stands on z is taken to be ground first: of two sides of a façade nothing tells the one that was seen.
-  constexpr int z = 2;
   const AxisReading ground = read_axis(scene, z, threads);
   if (ground.stacked <= most_stacked && ground.cap <= cap_of_body && share_on_hull(scene, z) < most_on_hull) {
     result.kind = SceneKind::facade;
@@ -207,9 +215,31 @@ Surroundings reading_of_samples(const Scene& scene, const Threads& threads) {
   return result;
 }
 
+/// Does the hull run along walls? A room keeps them where its ceiling was not seen; from the rim of the ground to what
+/// stands on it the hull hangs like a curtain.
+bool has_walls(const Scene& scene, int axis) {
+  const Tetrahedralization& t = scene.tetrahedralization;
+  const Vec3 up = direction_of(static_cast<Axis>(2 * axis));
+  double walls = 0, all = 0;
+  for_each_hull_triangle(t, [&](const std::array<SampleIndex, 3>& corner, VertexIndex) {
+    const Vec3& p = t.positions[corner[0]];
+    const Vec3 n = cross(t.positions[corner[1]] - p, t.positions[corner[2]] - p);
+    all += norm(n);
+    if (std::fabs(dot(n, up)) < most_leaning * norm(n) && is_borne_out(scene, corner)) walls += norm(n);
+  });
+  return walls > least_walls * all;
+}
+
+/// Were most samples seen from that side?
+bool is_seen_from(const Vec3& side, const Tetrahedralization& t, std::span<const SightLine> lines) {
+  const auto seen = std::count_if(lines.begin(), lines.end(), [&](const SightLine& line) {
+    return dot(side, line.target - t.positions[line.sample]) > 0;
+  });
+  return 2 * static_cast<std::size_t>(seen) > lines.size();
+}
+
 /// Who wants a base says that it is one side. \throws Error{usage} when the samples do not lie so along z
 Surroundings side_for_base(const Scene& scene, const Threads& threads) {
-  constexpr int z = 2;
   if (share_stacked(scene, z, threads) > perhaps_stacked)
     throw Error(ErrorKind::usage, "evidence",
                 "--base: the samples do not lie like ground, one above each place of a map",
@@ -259,6 +289,10 @@ Surroundings surroundings_of(const PointCloud& cloud, const Scene& scene, const 
   if (cloud.sensor_of.empty()) return reading_of_samples(scene, threads);
   const Tetrahedralization& t = scene.tetrahedralization;
   const auto lines = sight_lines(cloud, scene.sample_of_row, t, SampleLengths(t.sample_count, 0), {});
+  // Sensors change nothing about how ground lies: it was seen from above, and no walls stand around it.
+  if (const Surroundings ground = reading_of_samples(scene, threads);
+      ground.kind == SceneKind::facade && is_seen_from(direction_of(ground.front), t, lines) && !has_walls(scene, z))
+    return ground;
   const HullSight sight = hull_sight(t, scene.stars, lines, threads);
   return Surroundings{sight.within > sight.without ? SceneKind::interior : SceneKind::body};
 }

@@ -116,6 +116,41 @@ TEST(Scenes, GroundIsSolidBelowAndOpenAtItsRim) {
   EXPECT_EQ(reconstruct(cloud, off).report.surroundings.kind, SceneKind::body);
 }
 
+TEST(Scenes, SensorsDoNotMakeABodyOfGround) {
+  // As an aircraft sees it, and a scanner that no hill hides anything from.
+  const auto height = [](double x, double y) { return 0.4 * std::sin(0.7 * x) * std::cos(0.5 * y); };
+  for (const Vec3& place : {Vec3{-4, 3, 30}, Vec3{6, -5, 4}}) {
+    PointCloud cloud = ground_of(10, 0.25, height);
+    cloud.sensors = {{place, false}};
+    cloud.sensor_of.assign(cloud.points.size(), 0);
+    const Result result = reconstruct(cloud);
+    EXPECT_EQ(result.report.surroundings.kind, SceneKind::facade);
+    EXPECT_EQ(result.report.mesh.components, 1u);
+    EXPECT_GT(covered(result, cloud), 0.9);
+    EXPECT_LT(result.report.unsupported_area, 0.1);
+  }
+}
+
+TEST(Scenes, AnOverhangSeenFromBelowIsFreeBelow) {
+  // A ledge: a wall that leans over the ground at its foot, samples everywhere.
+  PointCloud cloud = ground_of(8, 0.2, [](double x, double) { return x > 0 ? 6.0 : 0.0; });
+  const auto wall = [](double y, double z) { return 0.4 * std::sin(1.1 * y) + 0.5 * std::sin(1.6 * z) - 0.35 * z; };
+  std::erase_if(cloud.points, [&](const Vec3& p) { return p.z > 0 ? false : p.x > wall(p.y, 0); });
+  clouds::Random random(9);
+  for (double y = -8; y <= 8; y += 0.2)
+    for (double z = 0.1; z < 6; z += 0.2) {
+      const double u = y + 0.08 * random.uniform(), v = z + 0.08 * random.uniform();
+      cloud.points.push_back({wall(u, v), u, v});
+    }
+  for (double y = -8; y <= 8; y += 0.2)
+    for (double x = 0; x > wall(y, 6); x -= 0.2) cloud.points.push_back({x - 0.05 * random.uniform(), y, 6});
+  const Result result = reconstruct(cloud);
+  EXPECT_EQ(result.report.surroundings.kind, SceneKind::facade);
+  EXPECT_EQ(result.report.mesh.components, 1u);
+  EXPECT_EQ(result.report.mesh.genus, 0);
+  EXPECT_GT(covered(result, cloud), 0.98);
+}
+
 TEST(Scenes, ABaseClosesAPile) {
   for (const double slope : {0.0, 0.2}) {
     const PointCloud cloud = ground_of(10, 0.25, [&](double x, double y) { return pile(x, y) + slope * x; });

@@ -148,5 +148,54 @@ TEST(Hidden, IsWhatLiesBehindSamplesAndBeforeNone) {
   EXPECT_LT(free_but_hiding, 0.05 * free); // and some lean out from below the roof
 }
 
+TEST(Hidden, IsNothingBelowWhatWasSeenFromBelow) {
+  // A slab above flat ground: samples on its top and on its underside, and below it.
+  Points points = heights(60, [](double, double) { return 0.0; });
+  for (const double height : {20.0, 26.0})
+    for (const Vec3& p : heights(60, roof))
+      if (p.z > 0) points.push_back({p.x + 0.1, p.y + 0.2, height});
+  const Scene scene = scene_of(points);
+  const Tetrahedralization& t = scene.tetrahedralization;
+  const SampleLengths depth(t.sample_count, 0.5F);
+  const HiddenCounts hidden = count_hidden(scene, {0, 0, 1}, depth, Labels(t.tetrahedra.size()), Threads(2));
+  double free = 0, hiding = 0; // volumes
+  for (TetrahedronIndex i{0}; i.value < hidden.size(); ++i.value) {
+    const Vec3 p = clouds::centroid(t, i) + t.origin;
+    if (t.touches_cube(i) || p.z < 1 || p.z > 19 || roof(p.x - 6, p.y - 6) == 0 || roof(p.x + 6, p.y + 6) == 0)
+      continue;
+    free += clouds::volume(t, i);
+    if (hidden[i] > 0) hiding += clouds::volume(t, i);
+  }
+  EXPECT_GT(free, 2000);
+  EXPECT_LT(hiding, 0.25 * free); // where one line more from above meets a sliver
+}
+
+TEST(Surroundings, OfGroundAreTheSameWithSensors) {
+  const Points hills = heights(30, [](double x, double y) { return 3 * std::sin(x / 5) * std::cos(y / 4); });
+  const Scene scene = scene_of(hills);
+  const auto kind = [&](const Vec3& place) {
+    return surroundings_of(seen_from(hills, place), scene, Options(), Threads(1)).kind;
+  };
+  EXPECT_EQ(kind({15, 15, 60}), SceneKind::facade);
+  EXPECT_EQ(kind({14, 17, 3}), SceneKind::facade); // amid the hills
+  EXPECT_NE(kind({15, 15, -60}), SceneKind::facade);
+}
+
+TEST(Surroundings, OfAHallWithoutItsCeilingAreItsWalls) {
+  // 40 × 40 and 6 high: most samples lie on the floor.
+  Points hall = heights(41, [](double, double) { return 0.0; });
+  clouds::Random random(5);
+  for (unsigned i = 0; i < 41; ++i)
+    for (unsigned k = 1; k <= 6; ++k) {
+      const double along = i + 0.4 * random.uniform(), up = k - 0.4 * random.uniform();
+      for (const Vec3& p : {Vec3{along, 0, up}, Vec3{along, 41, up}, Vec3{0, along, up}, Vec3{41, along, up}})
+        hall.push_back(p);
+    }
+  const Scene scene = scene_of(hall);
+  EXPECT_LT(read_axis(scene, 2, Threads(1)).stacked, 0.5);
+  EXPECT_EQ(surroundings_of(seen_from(hall, {19.3, 21.2, 2.9}), scene, Options(), Threads(1)).kind,
+            SceneKind::interior);
+}
+
 } // namespace
 } // namespace eigencrust
