@@ -92,8 +92,8 @@ void describe(const SampleMeasures& measures, Run& run) {
   run.report().grid_spacing = measures.scan_grid_spacing;
   describe_noise(measures.grid, run);
   warn_of_noise(measures.model, run);
-  constexpr double least_flat = 0.02; // thin tubes have 0.05, other scans 0.4 and more
-  if (measures.model.flat_share < least_flat)
+  constexpr double least_in_sheets = 0.05; // three plates a few spacings apart have 0.15, scans 0.5 and more
+  if (measures.model.sheet_share < least_in_sheets)
     run.warn(
         "the points fill a volume, hardly anywhere do they lie in a sheet: this is no surface, or its noise is as "
         "large as its parts; do not trust the result. Give the points of the surface only, or --noise with the "
@@ -196,12 +196,15 @@ void describe(const std::vector<DroppedComponent>& dropped, Run& run) {
 
 void describe(const SamplesApart& samples, Run& run) {
   run.count("components", "samples_apart", static_cast<double>(samples.apart));
-  const double share = static_cast<double>(samples.apart) / static_cast<double>(samples.all);
-  constexpr double usual = 0.1;
+  run.count("components", "samples_apart_together", static_cast<double>(samples.in_company));
+  const double share = static_cast<double>(samples.in_company) / static_cast<double>(samples.all);
+  constexpr double usual = 0.01; // noise and outliers, also of heavy tails, have 0.002
   if (share > usual)
-    run.warn(std::to_string(std::lround(100 * share)) +
-             " % of the samples lie apart from the surface, and are no outliers: parts are missing, perhaps walls far "
-             "thinner than the samples are apart; look at the result before you use it");
+    run.warn(
+        std::to_string(std::lround(100 * share)) +
+        " % of the samples lie side by side apart from the surface, and are no outliers: parts are missing, perhaps "
+        "walls far thinner than the samples are apart, or the inside of something hollow that was seen through its "
+        "opening; look at the result before you use it");
 }
 
 void describe(const UnsupportedTriangles& unsupported, Run& run) {

@@ -21,6 +21,9 @@ constexpr std::array<std::size_t, 3> sizes{narrowest, narrowest* growth, narrowe
 // Neighbourhoods that are not flat must fit so many times into the cloud: a larger one is as thick as the object.
 constexpr std::size_t least_neighbourhoods = 20;
 
+// So many lie in a plane by chance once in 80 times, in a lattice never.
+constexpr std::size_t sheet_neighbours = 20;
+
 // The middle of the noise is that of the samples within 3 σ, weighted by their distance with a deviation of 2 σ.
 constexpr double deviation_in_sigmas = 2;
 
@@ -68,6 +71,18 @@ bool PlaceModels::is_smooth_up_close(std::span<const Vec3> points, std::span<con
 }
 
 PlaceModel PlaceModels::at(const Vec3& place) const {
+  PlaceModel model = flat_at(place);
+  model.is_sheet = model.is_flat;
+  if (model.is_flat) return model;
+  // Sheets a few spacings apart, as those of plates and fins, are flat in no wider neighbourhood.
+  std::array<std::uint32_t, sheet_neighbours> index{};
+  std::array<double, sheet_neighbours> square{};
+  const std::size_t found = tree_.nearest(place, index.size(), index.data(), square.data());
+  model.is_sheet = local_frame(positions_, std::span(index).first(found), place).is_flat();
+  return model;
+}
+
+PlaceModel PlaceModels::flat_at(const Vec3& place) const {
   std::array<std::uint32_t, sizes.back()> index{};
   std::array<double, sizes.back()> square{};
   const auto neighbours = [&](std::size_t level) -> std::span<const std::uint32_t> {

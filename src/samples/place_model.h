@@ -13,8 +13,9 @@
 namespace eigencrust {
 
 struct PlaceModel {
-  bool is_flat = false; ///< some neighbourhood is; otherwise nothing is known
-  double noise = 0;     ///< standard deviation across the surface
+  bool is_flat = false;  ///< some neighbourhood is; otherwise nothing is known
+  double noise = 0;      ///< standard deviation across the surface
+  bool is_sheet = false; ///< flat, or the 20 nearest samples are
 };
 
 /// Nearly all noise is within so many standard deviations.
@@ -41,6 +42,7 @@ class PlaceModels {
     std::vector<Vec3> positions;
     PointTree tree;
   };
+  [[nodiscard]] PlaceModel flat_at(const Vec3& place) const;
   [[nodiscard]] bool is_smooth_up_close(std::span<const Vec3> points, std::span<const std::uint32_t> around) const;
 
   std::span<const Vec3> positions_;

@@ -145,9 +145,9 @@ SampleModel sample_model(std::span<const Vec3> positions, std::optional<double> 
   const PlaceModels models(positions, tree);
   const Places places = measure_places(models, positions, model.spacing.raw(), threads);
   if (places.at.size() >= enough_around)
-    model.flat_share = static_cast<double>(std::count_if(places.model.begin(), places.model.end(),
-                                                         [](const PlaceModel& m) { return m.is_flat; })) /
-                       static_cast<double>(places.at.size());
+    model.sheet_share = static_cast<double>(std::count_if(places.model.begin(), places.model.end(),
+                                                          [](const PlaceModel& m) { return m.is_sheet; })) /
+                        static_cast<double>(places.at.size());
   const auto [level, noise] = flat_places_around(places, threads);
   model.noise = model.isolated = SampleLengths(positions.size(), 0.0f);
   for_each_index(

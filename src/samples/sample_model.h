@@ -30,8 +30,8 @@ struct SampleModel {
   /// Empty where there is no such place.
   std::vector<MeanPlane> plane;
   double typical_spacing = 0; ///< median, for people
-  /// Share of the places measured around which some neighbourhood is flat; 1 where there are too few to tell.
-  double flat_share = 1;
+  /// Share of the places measured where samples lie in a sheet, if a narrow one; 1 where there are too few to tell.
+  double sheet_share = 1;
 
   /// How far a sample may be from the surface: a spacing, or what noise explains.
   [[nodiscard]] double tolerance(SampleIndex s) const {

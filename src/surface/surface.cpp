@@ -49,7 +49,6 @@ void require_samples_near(const Surface& surface, const Scene& scene, const Thre
                 "every piece, --noise off trusts every sample");
 }
 
-/// Samples that are neither lonely nor noisy, and yet neither on the surface nor beside a neighbour that is.
 SamplesApart samples_apart(const Surface& surface, const Scene& scene, const Threads& threads) {
   const Tetrahedralization& t = scene.tetrahedralization;
   const SampleModel& model = scene.measures.model;
@@ -64,12 +63,34 @@ SamplesApart samples_apart(const Surface& surface, const Scene& scene, const Thr
       });
     });
   };
-  const auto apart = sum_blocks<std::uint64_t>(threads, t.sample_count, [&](std::size_t begin, std::size_t end) {
-    std::uint64_t count = 0;
-    for (std::size_t s = begin; s < end; ++s) count += is_apart(SampleIndex{static_cast<std::uint32_t>(s)});
-    return count;
+  IndexedArray<SampleIndex, std::uint8_t> apart(t.sample_count, 0);
+  for_each_index(threads, apart.size(), [&](std::size_t i) {
+    const SampleIndex s{static_cast<std::uint32_t>(i)};
+    apart[s] = is_apart(s);
   });
-  return {apart, t.sample_count};
+  // Of a part that was left out most samples around are left out too; around outliers most are on the surface.
+  const auto is_in_company = [&](SampleIndex s) {
+    std::size_t near = 0, apart_too = 0;
+    for (const TetrahedronIndex i : scene.stars[s])
+      for (const VertexIndex n : t.tetrahedra[i]) {
+        if (t.is_corner(n) || t.sample(n) == s) continue;
+        if (distance(t.positions[n], t.positions[s]) > 2 * model.tolerance(s)) continue;
+        ++near;
+        apart_too += apart[t.sample(n)];
+      }
+    return 2 * apart_too > near;
+  };
+  const auto count = [&](const auto& is_one) {
+    return sum_blocks<std::uint64_t>(threads, t.sample_count, [&](std::size_t begin, std::size_t end) {
+      std::uint64_t found = 0;
+      for (std::size_t i = begin; i < end; ++i) {
+        const SampleIndex s{static_cast<std::uint32_t>(i)};
+        found += apart[s] && is_one(s);
+      }
+      return found;
+    });
+  };
+  return {count([](SampleIndex) { return true; }), count(is_in_company), t.sample_count};
 }
 
 void require_trimmed(const Surface& surface) {

@@ -15,7 +15,9 @@ constexpr double least_share_on_surface = 0.05;
 
 /// Samples that the surface leaves alone though neither noise nor loneliness explains it.
 struct SamplesApart {
-  std::uint64_t apart = 0, all = 0;
+  std::uint64_t apart = 0;      ///< neither lonely nor noisy, and neither on the surface nor beside a neighbour that is
+  std::uint64_t in_company = 0; ///< of these: most of their neighbours are too, as in a part that was left out
+  std::uint64_t all = 0;
 };
 
 /// §3. The stages surface, support, components and trim.

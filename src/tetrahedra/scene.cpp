@@ -39,7 +39,6 @@ Scene make_scene(const PointCloud& cloud, const Context& context) {
   });
   if (run.ranks() != nullptr)
     for (const auto& [what, value] : run.ranks()->counts()) run.count(what, value);
-  describe(scene.measures, run);
   const Tetrahedralization& t = scene.tetrahedralization;
   run.product("samples", [&] { return snapshot_of_samples(t, scene.measures.model); });
   scene.stars = run.stage("stars", [&] { return vertex_stars(t, threads); });

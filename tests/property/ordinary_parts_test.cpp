@@ -162,18 +162,32 @@ TEST(OrdinaryParts, TheEnergyIsANumberWhereCentresRoundOntoSamples) {
 
 TEST(OrdinaryParts, NoiseFarAboveTheSpacingGetsAWarning) {
   // In spacings of 0.025: deviations of 3 and of 0.7.
-  const auto warns = [](double jitter) {
+  const auto warnings = [](double jitter) {
     const Result result = reconstruct(clouds::cloud_of(clouds::jittered(clouds::sphere(20000), jitter, 5)));
-    return testing::Value(result.report.warnings,
-                          testing::Contains(testing::HasSubstr("noise is larger than the samples are apart")));
+    return std::count_if(result.report.warnings.begin(), result.report.warnings.end(), [](const std::string& warning) {
+      return warning.find("noise is larger than the samples are apart") != std::string::npos;
+    });
   };
-  EXPECT_TRUE(warns(0.13));
-  EXPECT_FALSE(warns(0.03));
+  EXPECT_EQ(warnings(0.13), 1);
+  EXPECT_EQ(warnings(0.03), 0);
 }
 
 TEST(OrdinaryParts, PointsThatFillAVolumeGetAWarning) {
   const Result result = reconstruct(clouds::cloud_of(clouds::random_box(6000, 6)));
   EXPECT_THAT(result.report.warnings, testing::Contains(testing::HasSubstr("fill a volume")));
+}
+
+TEST(OrdinaryParts, APartLeftOutGetsAWarningAndOutliersGetNone) {
+  const auto warns = [](const Points& points) {
+    return testing::Value(reconstruct(clouds::cloud_of(points)).report.warnings,
+                          testing::Contains(testing::HasSubstr("side by side apart from the surface")));
+  };
+  // A sheet within a ball bounds nothing.
+  const Points ball = clouds::sphere(8000);
+  const Points within = clouds::moved(clouds::lattice(16, 16, 1, 0.04), {-0.3, -0.3, 0.1});
+  EXPECT_TRUE(warns(clouds::joined(ball, within)));
+  EXPECT_FALSE(warns(clouds::joined(ball, clouds::random_box(400, 3, 1.2))));
+  EXPECT_FALSE(warns(clouds::jittered(ball, 0.03, 3)));
 }
 
 TEST(OrdinaryParts, AScrapIsNoSuccess) {

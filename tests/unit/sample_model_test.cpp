@@ -157,8 +157,18 @@ TEST(SampleModel, AGivenNoiseIsTakenEverywhere) {
 }
 
 TEST(SampleModel, PointsThatFillAVolumeAreFlatNowhere) {
-  EXPECT_LT(Ordered(clouds::random_box(8000, 4)).model.flat_share, 0.02);
-  EXPECT_GT(Ordered(clouds::sphere(8000)).model.flat_share, 0.9);
+  EXPECT_LT(Ordered(clouds::random_box(8000, 4)).model.sheet_share, 0.02);
+  EXPECT_GT(Ordered(clouds::sphere(8000)).model.sheet_share, 0.9);
+}
+
+TEST(SampleModel, PlatesAFewSpacingsApartAreSheets) {
+  Points plates;
+  clouds::Random random(7);
+  for (const double height : {0.0, 2.4, 4.6, 7.1, 9.5, 11.8})
+    for (unsigned i = 0; i < 40; ++i)
+      for (unsigned j = 0; j < 40; ++j)
+        plates.push_back({i + 0.6 * random.uniform(), j + 0.6 * random.uniform(), height});
+  EXPECT_GT(Ordered(plates).model.sheet_share, 0.1);
 }
 
 TEST(SampleModel, AnyNumberOfThreadsGivesTheSame) {
