@@ -198,13 +198,13 @@ void describe(const SamplesApart& samples, Run& run) {
   run.count("components", "samples_apart", static_cast<double>(samples.apart));
   run.count("components", "samples_apart_together", static_cast<double>(samples.in_company));
   const double share = static_cast<double>(samples.in_company) / static_cast<double>(samples.all);
-  constexpr double usual = 0.01; // noise and outliers, also of heavy tails, have 0.002
-  if (share > usual)
-    run.warn(
-        std::to_string(std::lround(100 * share)) +
-        " % of the samples lie side by side apart from the surface, and are no outliers: parts are missing, perhaps "
-        "walls far thinner than the samples are apart, or the inside of something hollow that was seen through its "
-        "opening; look at the result before you use it");
+  constexpr double usual = 0.005; // noise and scattered outliers, also of heavy tails, have 0.002
+  if (!(share > usual)) return;
+  const std::string percent = share < 0.01 ? "nearly 1" : std::to_string(std::lround(100 * share));
+  run.warn(percent +
+           " % of the samples lie side by side apart from the surface: strays in clumps, or parts are missing, perhaps "
+           "walls far thinner than the samples are apart, or the inside of something hollow that was seen through its "
+           "opening; look at the result before you use it");
 }
 
 void describe(const UnsupportedTriangles& unsupported, Run& run) {
