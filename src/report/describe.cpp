@@ -198,10 +198,10 @@ void describe(const SamplesApart& samples, Run& run) {
   run.count("components", "samples_apart", static_cast<double>(samples.apart));
   run.count("components", "samples_apart_together", static_cast<double>(samples.in_company));
   const double share = static_cast<double>(samples.in_company) / static_cast<double>(samples.all);
-  constexpr double usual = 0.005; // noise and scattered outliers, also of heavy tails, have 0.002
+  // Scattered outliers and noise of up to a spacing have 0.002, that of two spacings nearly as much as this.
+  constexpr double usual = 0.01;
   if (!(share > usual)) return;
-  const std::string percent = share < 0.01 ? "nearly 1" : std::to_string(std::lround(100 * share));
-  run.warn(percent +
+  run.warn(std::to_string(std::lround(100 * share)) +
            " % of the samples lie side by side apart from the surface: strays in clumps, or parts are missing, perhaps "
            "walls far thinner than the samples are apart, or the inside of something hollow that was seen through its "
            "opening; look at the result before you use it");
