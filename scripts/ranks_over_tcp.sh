@@ -36,6 +36,8 @@ for ((k = 1; k <= ranks; ++k)); do
   hosts+=${hosts:+,}10.77.0.$k
 done
 
+ip netns exec "$name-1" unshare --uts hostname rank1 2>"$work/why" || skip "namespaces cannot be entered: $(cat "$work/why")"
+
 # What mpiexec takes for ssh: into the namespace of an address, under a host name of its own.
 cat >"$work/enter" <<'ENTER'
 #!/usr/bin/env bash
