@@ -62,18 +62,10 @@ void Messages::broadcast(void* items, std::uint64_t count, std::size_t size) con
   if (is_root()) bytes_sent_ += count * size * static_cast<std::uint64_t>(size_ - 1);
 }
 
-std::uint64_t Messages::largest(std::uint64_t value) const {
+std::uint64_t Messages::reduced(std::uint64_t value, MPI_Op how) const {
   std::uint64_t result = 0;
   MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Iallreduce(&value, &result, 1, MPI_UINT64_T, MPI_MAX, MPI_COMM_WORLD, &request);
-  wait(request);
-  return result;
-}
-
-std::uint64_t Messages::sum(std::uint64_t value) const {
-  std::uint64_t result = 0;
-  MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Iallreduce(&value, &result, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD, &request);
+  MPI_Iallreduce(&value, &result, 1, MPI_UINT64_T, how, MPI_COMM_WORLD, &request);
   wait(request);
   return result;
 }

@@ -44,9 +44,9 @@ class Messages {
     broadcast(items.data(), count, sizeof(T));
   }
   /// The largest of all ranks' values.
-  [[nodiscard]] std::uint64_t largest(std::uint64_t value) const;
+  [[nodiscard]] std::uint64_t largest(std::uint64_t value) const { return reduced(value, MPI_MAX); }
   /// The sum of all ranks' values.
-  [[nodiscard]] std::uint64_t sum(std::uint64_t value) const;
+  [[nodiscard]] std::uint64_t sum(std::uint64_t value) const { return reduced(value, MPI_SUM); }
 
   /// Items of each rank to each rank. \param out one for each rank \return one from each rank
   template <class T>
@@ -74,6 +74,7 @@ class Messages {
     void* items;
     std::uint64_t count;
   };
+  [[nodiscard]] std::uint64_t reduced(std::uint64_t value, MPI_Op how) const;
   void broadcast(void* items, std::uint64_t count, std::size_t size) const;
   [[nodiscard]] std::vector<std::uint64_t> exchange_counts(const std::vector<std::uint64_t>& counts) const;
   void exchange(const std::vector<Part>& sent, const std::vector<Part>& received, std::size_t size) const;
