@@ -98,6 +98,7 @@ Tetrahedralization KeptTetrahedra::tetrahedralize(Samples samples, const Threads
   if (resume_) {
     Tetrahedralization found = kept(samples);
     resumed_ = !found.tetrahedra.empty();
+    if (resumed_ && watch) watch(1, found.tetrahedra.size()); // the limit of memory may be another today
     if (resumed_) return found;
   }
   Tetrahedralization made = ranks_ != nullptr ? ranks_->tetrahedralize(std::move(samples), threads, watch, max_memory)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <thread>
 
 namespace eigencrust::mpi {
@@ -30,6 +31,11 @@ Messages::~Messages() {
   MPI_Ibarrier(MPI_COMM_WORLD, &all);
   wait(all);
   MPI_Finalize();
+}
+
+void Messages::abort(int status) const {
+  MPI_Abort(MPI_COMM_WORLD, status);
+  std::_Exit(status); // it does not return
 }
 
 void Messages::wait(MPI_Request request) const {

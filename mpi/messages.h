@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The only place that knows MPI. All calls but those that say so are made by all ranks at the same time.
+/// The only place that knows MPI. All ranks make the same calls in the same order, but for abort().
 #pragma once
 
 #include <mpi.h>
@@ -65,6 +65,10 @@ class Messages {
     exchange(sent, received, sizeof(T));
     return in;
   }
+
+  /// Ends all ranks at once: this one cannot go on to where the others wait for it.
+  /// \param status of the run
+  [[noreturn]] void abort(int status) const;
 
   /// Bytes that this rank has sent to others so far.
   [[nodiscard]] std::uint64_t bytes_sent() const { return bytes_sent_; }

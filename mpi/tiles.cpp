@@ -21,6 +21,37 @@ namespace {
 // Of smaller tiles most is border.
 constexpr std::uint32_t least_samples_of_a_rank = 20000;
 
+/// In words that another rank can throw.
+struct Failure {
+  ErrorKind kind = ErrorKind::guarantee;
+  std::string place, cause, remedy;
+};
+
+Failure describe(const std::exception_ptr& thrown) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const Error& e) {
+    return {e.kind(), e.place(), e.cause(), e.remedy()};
+  } catch (const std::bad_alloc&) {
+    return {ErrorKind::memory, "delaunay", "memory is exhausted", "take more ranks, or machines with more memory"};
+  } catch (const std::exception& e) {
+    return {ErrorKind::guarantee, "delaunay", e.what(), "report this as a fault of the program"};
+  }
+}
+
+/// Who fails amid an exchange cannot tell the others, who wait for what it was to send: all end, with its words.
+template <class Part>
+void or_end_all(const Messages& messages, Part&& part) {
+  try {
+    part();
+  } catch (...) {
+    const Failure f = describe(std::current_exception());
+    std::fprintf(stderr, "eigencrust: error: %s (rank %d, %s); %s\n", f.cause.c_str(), messages.rank(), f.place.c_str(),
+                 f.remedy.c_str());
+    messages.abort(static_cast<int>(f.kind));
+  }
+}
+
 /// What everyone has to know.
 struct Frame {
   std::uint32_t samples = 0;
@@ -68,7 +99,7 @@ class Supply : public SampleSupply {
     const Round here = progress_.given_up() ? Round::given_up : wanted.empty() ? Round::settled : Round::wanting;
     if (agree(here) != Round::wanting) return false;
     ++rounds_;
-    bring(wanted);
+    or_end_all(messages_, [&] { bring(wanted); });
     return true;
   }
 
@@ -123,24 +154,6 @@ class Supply : public SampleSupply {
   bool over_ = false;
   std::uint64_t rounds_ = 0, samples_fetched_ = 0;
 };
-
-/// In words that another rank can throw.
-struct Failure {
-  ErrorKind kind = ErrorKind::guarantee;
-  std::string place, cause, remedy;
-};
-
-Failure describe(const std::exception_ptr& thrown) {
-  try {
-    std::rethrow_exception(thrown);
-  } catch (const Error& e) {
-    return {e.kind(), e.place(), e.cause(), e.remedy()};
-  } catch (const std::bad_alloc&) {
-    return {ErrorKind::memory, "delaunay", "memory is exhausted", "take more ranks, or machines with more memory"};
-  } catch (const std::exception& e) {
-    return {ErrorKind::guarantee, "delaunay", e.what(), "report this as a fault of the program"};
-  }
-}
 
 /// All ranks end if one does, with what the first of them has to say.
 void throw_together(const Messages& messages, const std::exception_ptr& thrown) {
@@ -239,30 +252,36 @@ std::vector<Tile> gather(const Messages& messages, Tile own) {
 
 std::vector<Tile> make_tiles(const Messages& messages, const Tetrahedralization* enclosed, const WatchGrowth& watch,
                              TileFigures& figures) {
+  figures = {};
   const std::uint64_t sent_before = messages.bytes_sent();
   const Frame frame = messages.from_root(frame_of(enclosed));
-  SampleBlocks blocks(frame.samples, sketch(messages, enclosed));
-  const Shares shares(frame.samples, blocks.block_count(), messages.size());
-  learn_own(messages, shares, enclosed, blocks);
+  std::optional<SampleBlocks> blocks;
+  std::optional<Shares> shares;
+  or_end_all(messages, [&] {
+    blocks.emplace(frame.samples, sketch(messages, enclosed));
+    shares.emplace(frame.samples, blocks->block_count(), messages.size());
+    learn_own(messages, *shares, enclosed, *blocks);
+  });
 
-  const SampleRange own = shares.samples_of(static_cast<std::size_t>(messages.rank()));
+  const SampleRange own = shares->samples_of(static_cast<std::size_t>(messages.rank()));
   TileProgress progress(watch, own.size());
-  Supply supply(messages, shares, blocks, progress);
-  std::optional<Tile> tile;
+  Supply supply(messages, *shares, *blocks, progress);
+  Tile tile;
   together(
       messages,
       [&] {
-        if (own.size() > 0) tile = make_tile(frame.corners, blocks, own, progress, &supply);
+        if (own.size() > 0)
+          if (auto made = make_tile(frame.corners, *blocks, own, progress, &supply)) tile = std::move(*made);
         supply.serve();
       },
       [&] { supply.fail(); });
   // Later stages have them all.
-  const std::uint64_t tetrahedra = messages.sum(tile ? tile->tetrahedra.size() : 0);
+  const std::uint64_t tetrahedra = messages.sum(tile.tetrahedra.size());
   together(
       messages, [&] { if (messages.is_root() && watch) watch(1, tetrahedra); }, [] {});
-  figures = {};
   if (progress.given_up()) return {};
-  std::vector<Tile> tiles = gather(messages, tile ? std::move(*tile) : Tile{});
+  std::vector<Tile> tiles;
+  or_end_all(messages, [&] { tiles = gather(messages, std::move(tile)); });
   figures.rounds = supply.rounds();
   figures.samples_fetched = messages.sum(supply.samples_fetched());
   figures.bytes_sent = messages.sum(messages.bytes_sent() - sent_before);

@@ -39,6 +39,14 @@ expect_error() {
   grep -qF -- "$text" err || die "the message does not say '$text': eigencrust $*"
 }
 
+# until_begun STAGE PROCESS: waits for the line in `err` that tells of it, or for the end of the process, which is 1.
+until_begun() {
+  until grep -q "\"stage\":\"$1\",\"event\":\"begin\"" err; do
+    kill -0 "$2" 2>/dev/null || return 1
+    sleep 0.01
+  done
+}
+
 # The folder holds these files and no others, hidden ones included; `out` and `err` do not count.
 expect_files() {
   local found wanted

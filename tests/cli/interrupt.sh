@@ -15,10 +15,7 @@ interrupt_at() {
   for attempt in 1 2 3 4 5; do
     "$program" big.xyz -o mesh.ply --report report.json --progress jsonl >out 2>err &
     child=$!
-    until grep -q "\"stage\":\"$stage\",\"event\":\"begin\"" err; do
-      kill -0 "$child" 2>/dev/null || break
-      sleep 0.01
-    done
+    until_begun "$stage" "$child" || true
     kill -s STOP "$child" 2>/dev/null || true
     begun=$(stages_begun)
     kill -s "$signal" "$child" 2>/dev/null || true

@@ -9,10 +9,7 @@ ended_run() {
   for attempt in 1 2 3 4 5; do
     "$program" big.xyz -o mesh.ply --temp-dir kept --progress jsonl >out 2>err &
     child=$!
-    until grep -q '"stage":"stars","event":"begin"' err; do
-      kill -0 "$child" 2>/dev/null || break
-      sleep 0.01
-    done
+    until_begun stars "$child" || true
     kill -s KILL "$child" 2>/dev/null || true
     wait "$child" 2>/dev/null || true
     if [ ! -e mesh.ply ]; then break; fi
