@@ -112,6 +112,40 @@ unsigned available_threads(unsigned wanted) {
   return static_cast<unsigned>(team.size());
 }
 
+/// Arenas between their uses. A worker that comes late leaves an arena after its owner did and ends it then, so on a
+/// busy machine an arena made for each run costs kilobytes that the library's allocator never gives to the next.
+class SpareArenas {
+ public:
+  std::unique_ptr<tbb::task_arena> take(int threads) {
+    {
+      const std::lock_guard lock(mutex_);
+      for (auto spare = spares_.begin(); spare != spares_.end(); ++spare) {
+        if ((*spare)->max_concurrency() != threads) continue;
+        std::unique_ptr<tbb::task_arena> arena = std::move(*spare);
+        spares_.erase(spare);
+        return arena;
+      }
+      spares_.reserve(++made_); // so that giving back cannot fail
+    }
+    return std::make_unique<tbb::task_arena>(threads);
+  }
+  void give_back(std::unique_ptr<tbb::task_arena> arena) {
+    const std::lock_guard lock(mutex_);
+    spares_.push_back(std::move(arena));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<tbb::task_arena>> spares_;
+  std::size_t made_ = 0;
+};
+
+/// Never destroyed: at the end of a process the library may be gone before.
+SpareArenas& spare_arenas() {
+  static auto* const spares = new SpareArenas;
+  return *spares;
+}
+
 /// The library opens its allocator at its first use, where it is not linked already, and where that meets an error
 /// without memory for its text dlopen of glibc 2.36 crashes. This asks for it to be linked, and does nothing.
 void need_allocator() { scalable_free(nullptr); }
@@ -122,26 +156,21 @@ struct Threads::Impl {
   std::function<void()> check;
   unsigned count;
   unsigned running; ///< never more than cores, of which the library would complain on stderr
-  tbb::task_arena arena;
+  std::unique_ptr<tbb::task_arena> arena;
 
   Impl(unsigned n, unsigned cores, std::function<void()> before_each)
       : check(std::move(before_each)),
         count(n > 0 ? n : cores),
         running(1 + available_threads(std::min(count, cores) - 1)),
-        arena(static_cast<int>(running)) {}
+        arena(spare_arenas().take(static_cast<int>(running))) {}
+  ~Impl() { spare_arenas().give_back(std::move(arena)); }
 };
 
 Threads::Threads(unsigned count, std::function<void()> check) {
   need_allocator();
   impl_ = std::make_unique<Impl>(count, static_cast<unsigned>(tbb::info::default_concurrency()), std::move(check));
 }
-Threads::~Threads() {
-  const bool had_others = impl_->running > 1;
-  impl_.reset();
-  // Where processors are short, what one thread took another gives back, and the library's allocator keeps most of it:
-  // kilobytes for each run, in a process that makes thousands.
-  if (had_others) scalable_allocation_command(TBBMALLOC_CLEAN_ALL_BUFFERS, nullptr);
-}
+Threads::~Threads() = default;
 
 unsigned Threads::size() const { return impl_->count; }
 
@@ -155,7 +184,7 @@ void Threads::run_erased(std::size_t blocks, void (*call)(void*, std::size_t), v
   }
   Blocks all(call, function, impl_->check);
   // Isolated: who waits for these blocks takes no others, which may be long or use the same tables.
-  impl_->arena.execute([&] {
+  impl_->arena->execute([&] {
     tbb::this_task_arena::isolate(
         [&] { tbb::parallel_for(std::size_t{0}, blocks, TakeBlock{&all}, tbb::simple_partitioner()); });
   });
