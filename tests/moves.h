@@ -23,7 +23,7 @@ struct MoveStage {
   /// \param spacing of all samples
   MoveStage(Prepared prepared, TetrahedronLabels sides, double spacing, unsigned team = 2)
       : threads(team), p(std::move(prepared)), labels(std::move(sides)) {
-    energy.faces = FaceWeights(p.t, threads);
+    energy.faces = FaceWeights(p.t, {}, threads);
     energy.data = labels.values();
     energy.known = p.known;
     model.spacing = SampleLengths(p.t.sample_count, static_cast<float>(spacing));

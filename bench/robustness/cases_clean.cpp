@@ -173,7 +173,10 @@ void add_outlier_cases(std::vector<Case>& cases) {
     }
     cases.push_back(outlier_case(file, {0.1, OutlierPlace::box, 1.0}, "box1"));
     cases.push_back(outlier_case(file, {0.1, OutlierPlace::clusters, 1.2}, "clusters"));
-    cases.push_back(outlier_case(file, {0.1, OutlierPlace::shell, 1.0}, "shell"));
+    Case shell = outlier_case(file, {0.1, OutlierPlace::shell, 1.0}, "shell");
+    // Where samples are missing, as under hooves, nothing may lead out to the strays.
+    shell.requirements.push_back(at_most("to_truth_mean", 0.05));
+    cases.push_back(std::move(shell));
   }
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "geometry/tetrahedron.h"
 #include "tetrahedra/circumsphere.h"
@@ -24,39 +23,39 @@ constexpr float cost_of_hiding = 1;
 } // namespace
 
 void DataTerms::add_ties(SampleIndex s, TetrahedronIndex i, const Vec3& centre, DataTerm& sum) const {
-  auto [first, second] = poles_.of_sample[s];
+  const auto [first, second] = poles_.of_sample[s];
   if (!first.valid() || !second.valid()) return;
   const auto label = [&](PoleIndex p) { return labels_.labels[poles_.tetrahedron[p]]; };
   const auto trust = [&](PoleIndex p) { return trust_in(poles_.tetrahedron[p]); };
-  if (label(first) == Label::inside) std::swap(first, second);
+  const auto add = [&](PoleIndex p, double cost) {
+    (label(p) == Label::outside ? sum.outside : sum.inside) += static_cast<float>(cost);
+  };
   for (const PoleIndex p : {first, second})
-    if (poles_.tetrahedron[p] == i && label(p) != Label::unlabelled) {
-      (label(p) == Label::outside ? sum.outside : sum.inside) += static_cast<float>(strongest_tie * trust(p));
-      return;
-    }
-  if (label(first) != Label::outside || label(second) != Label::inside) return;
+    if (poles_.tetrahedron[p] == i && label(p) != Label::unlabelled) return add(p, strongest_tie * trust(p));
+  if (label(first) == label(second)) return;
   const Vec3 way = centre - t_.positions[s];
-  const double length = norm(way), both = tie * trust(first) * trust(second);
+  const double length = norm(way);
   const auto towards = [&](PoleIndex p) { return poles_.sphere[p].centre - t_.positions[s]; };
   // Where the coordinates are huge a centre may round onto its sample: it has no direction then.
   if (!(length > 0) || !(norm(towards(first)) > 0) || !(norm(towards(second)) > 0)) return;
-  const auto weight = [&](PoleIndex p) {
+  double strength = tie;
+  for (const PoleIndex p : {first, second})
+    if (label(p) != Label::unlabelled) strength *= trust(p);
+  for (const PoleIndex p : {first, second}) {
+    if (label(p) == Label::unlabelled) continue; // one within the noise; the other still knows its side
     const Vec3 to = towards(p);
     // The shape of the pole graph's weights between tangent spheres (§3.1).
-    return std::exp(steepness * std::clamp(dot(to, way) / (norm(to) * length), -1.0, 1.0));
-  };
-  sum.outside += static_cast<float>(both * weight(first));
-  sum.inside += static_cast<float>(both * weight(second));
+    add(p, strength * std::exp(steepness * std::clamp(dot(to, way) / (norm(to) * length), -1.0, 1.0)));
+  }
 }
 
-void DataTerms::add_heights(TetrahedronIndex i, DataTerm& sum) const {
-  const Vec3 middle = centroid(corners_of(t_, i));
+void DataTerms::add_heights(TetrahedronIndex i, const Vec3& middle, DataTerm& sum) const {
   double height = 0;
   int planes = 0;
   for (const VertexIndex v : t_.tetrahedra[i]) {
-    if (!has_plane(v)) continue;
+    if (t_.is_corner(v)) continue;
     const SampleIndex s = t_.sample(v);
-    if (!planes_.is_near(s, middle)) continue;
+    if (!planes_.knows(s, middle)) continue;
     height += planes_.height(s, middle);
     ++planes;
   }
@@ -74,11 +73,12 @@ void DataTerms::add_lines(TetrahedronIndex i, DataTerm& sum) const {
 
 DataTerm DataTerms::operator()(TetrahedronIndex i) const {
   DataTerm sum;
+  const Vec3 middle = centroid(corners_of(t_, i));
   std::optional<Vec3> centre;
   for (const VertexIndex v : t_.tetrahedra[i]) {
-    if (t_.is_corner(v) || has_plane(v)) continue;
+    if (t_.is_corner(v)) continue;
     const SampleIndex s = t_.sample(v);
-    if (!isolated_.empty() && isolated_[s] > 0) continue;
+    if (planes_.knows(s, middle) || (!isolated_.empty() && isolated_[s] > 0)) continue;
     if (!centre) centre = std::apply(circumcentre, corners_of(t_, i));
     add_ties(s, i, *centre, sum);
   }
@@ -86,7 +86,7 @@ DataTerm DataTerms::operator()(TetrahedronIndex i) const {
     // On the other side a labelled pole costs half of a tie, where all its neighbours agree with it: more than its
     // largest face.
     (label == Label::outside ? sum.outside : sum.inside) += static_cast<float>(strongest_tie / 2 * trust_in(i));
-  add_heights(i, sum);
+  add_heights(i, middle, sum);
   add_lines(i, sum);
   return sum;
 }

@@ -26,8 +26,8 @@ struct DataTerm {
 };
 
 /// Below the spacing the poles speak: on a smooth surface every circumcentre lies on the side of one of the two poles
-/// of its sample. Where samples are noisy the distance from the local mean plane does. Lines of sight count each
-/// (none of it is in the paper; docs/decisions/0026).
+/// of its sample. Where samples are noisy the distance from the local mean plane does, as far as that reaches. Lines of
+/// sight count each (none of it is in the paper; docs/decisions/0026).
 class DataTerms {
  public:
   /// \param isolated samples where it is > 0 say nothing; may be empty \param sight, hidden may be null
@@ -42,14 +42,14 @@ class DataTerms {
         sight_(sight),
         hidden_(hidden) {}
 
+  [[nodiscard]] SampleLengthsView isolated() const { return isolated_; }
   [[nodiscard]] DataTerm operator()(TetrahedronIndex i) const;
 
  private:
   void add_ties(SampleIndex s, TetrahedronIndex i, const Vec3& centre, DataTerm& sum) const;
-  void add_heights(TetrahedronIndex i, DataTerm& sum) const;
+  void add_heights(TetrahedronIndex i, const Vec3& middle, DataTerm& sum) const;
   void add_lines(TetrahedronIndex i, DataTerm& sum) const;
   [[nodiscard]] double trust_in(TetrahedronIndex i) const { return static_cast<double>(labels_.trust[i]) / full_trust; }
-  [[nodiscard]] bool has_plane(VertexIndex v) const { return !t_.is_corner(v) && planes_.has(t_.sample(v)); }
 
   const Tetrahedralization& t_;
   const Poles& poles_;

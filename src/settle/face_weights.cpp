@@ -12,9 +12,10 @@ namespace eigencrust {
 namespace {
 
 // Two bytes a face: the measure need not be known better.
-constexpr double steps = std::numeric_limits<std::int16_t>::max();
+constexpr double steps = std::numeric_limits<std::int16_t>::max() / (1 + FaceWeights::cost_of_isolated);
 
-std::array<std::int16_t, 4> cosines(const std::array<Vec3, 4>& p) {
+/// \param isolated which of the vertices are
+std::array<std::int16_t, 4> cosines(const std::array<Vec3, 4>& p, const std::array<bool, 4>& isolated) {
   const Vec3 centre = std::apply(circumcentre, p);
   const double radius = distance(centre, p[0]);
   std::array<std::int16_t, 4> result{};
@@ -23,16 +24,25 @@ std::array<std::int16_t, 4> cosines(const std::array<Vec3, 4>& p) {
     const Vec3 normal = cross(b - a, c - a);
     const double side = dot(normal, p[k] - a) >= 0 ? 1 : -1;
     const double cosine = side * dot(normal, centre - a) / (norm(normal) * radius);
-    result[k] = static_cast<std::int16_t>(std::lround(steps * (cosine >= -1 ? std::min(cosine, 1.0) : -1.0)));
+    const bool costs_more = isolated[(k + 1) % 4] || isolated[(k + 2) % 4] || isolated[(k + 3) % 4];
+    result[k] = static_cast<std::int16_t>(std::lround(steps * (cosine >= -1 ? std::min(cosine, 1.0) : -1.0) -
+                                                      (costs_more ? steps * FaceWeights::cost_of_isolated : 0)));
   }
   return result;
 }
 
 } // namespace
 
-FaceWeights::FaceWeights(const Tetrahedralization& t, const Threads& threads) : t_(&t), cosine_(t.tetrahedra.size()) {
-  for_each_index(threads, t.tetrahedra.size(), [&](std::size_t i) {
-    cosine_.raw()[i] = cosines(corners_of(t, TetrahedronIndex{static_cast<std::uint32_t>(i)}));
+FaceWeights::FaceWeights(const Tetrahedralization& t, SampleLengthsView isolated, const Threads& threads)
+    : t_(&t), cosine_(t.tetrahedra.size()) {
+  const auto is_isolated = [&](VertexIndex v) {
+    return !isolated.empty() && !t.is_corner(v) && isolated[t.sample(v)] > 0;
+  };
+  for_each_index(threads, t.tetrahedra.size(), [&](std::size_t at) {
+    const TetrahedronIndex i{static_cast<std::uint32_t>(at)};
+    std::array<bool, 4> of{};
+    for (std::size_t k = 0; k < 4; ++k) of[k] = is_isolated(t.tetrahedra[i][k]);
+    cosine_[i] = cosines(corners_of(t, i), of);
   });
 }
 

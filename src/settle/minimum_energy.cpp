@@ -92,7 +92,8 @@ CutProblem problem_of(const Tetrahedralization& t, const Energy& energy, const L
 } // namespace
 
 Energy make_energy(const Tetrahedralization& t, const DataTerms& data, const Labels& known, const Threads& threads) {
-  Energy energy{FaceWeights(t, threads), IndexedArray<TetrahedronIndex, float>(known.size()), known, 0};
+  Energy energy{FaceWeights(t, data.isolated(), threads), IndexedArray<TetrahedronIndex, float>(known.size()), known,
+                0};
   energy.constant = sum_blocks<double>(threads, known.size(), [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (TetrahedronIndex i{static_cast<std::uint32_t>(begin)}; i.value < end; ++i.value) {

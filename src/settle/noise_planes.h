@@ -16,17 +16,18 @@ namespace eigencrust {
 /// The mean planes of the sample model, oriented outward by the labelled poles (not in the paper; docs/decisions/0026).
 class NoisePlanes {
  public:
+  /// How far a plane speaks, in deviations of the noise (docs/decisions/0026).
+  static constexpr double reach = 5;
+
   NoisePlanes(const Tetrahedralization& tetrahedralization, const Poles& poles, const Labels& labels,
               const SampleModel& model, const Threads& threads);
 
-  /// Is there a plane for this sample?
-  [[nodiscard]] bool has(SampleIndex s) const {
-    return !plane_.empty() && model_.is_noisy(s) && squared_norm(plane_[s.value / SampleModel::run].normal) > 0;
-  }
-  /// Is p near enough to the sample's plane for it to know? Beyond, at thin parts, there is another surface.
-  [[nodiscard]] bool is_near(SampleIndex s, const Vec3& p) const {
-    return distance(p, plane_[s.value / SampleModel::run].mean) <
-           static_cast<double>(2 * noise_bound * model_.noise[s]);
+  /// Is there a plane for this sample, and p near enough for it to know? Beyond, at thin parts, there is another
+  /// surface, and beside a rim there is none.
+  [[nodiscard]] bool knows(SampleIndex s, const Vec3& p) const {
+    if (plane_.empty() || !model_.is_noisy(s)) return false;
+    const MeanPlane& plane = plane_[s.value / SampleModel::run];
+    return squared_norm(plane.normal) > 0 && distance(p, plane.mean) < reach * static_cast<double>(model_.noise[s]);
   }
   /// Height of p over the sample's plane in deviations of the noise, > 0 outside.
   [[nodiscard]] double height(SampleIndex s, const Vec3& p) const {

@@ -54,12 +54,24 @@ Points turned(Points points) {
     return Vec3{q.x, c * q.y - s * q.z, s * q.y + c * q.z};
   });
 }
+double gaussian(clouds::Random& random) {
+  const double size = std::sqrt(-2 * std::log(1 - random.uniform()));
+  return size * std::cos(2 * pi * random.uniform());
+}
 /// Every point moved along its radius by Gaussian noise.
 Points noisy_sphere(std::size_t n, double sigma, std::uint64_t seed) {
   clouds::Random random(seed);
-  return mapped(clouds::sphere(n), [&](const Vec3& p) {
-    const double size = std::sqrt(-2 * std::log(1 - random.uniform()));
-    return (1 + sigma * size * std::cos(2 * pi * random.uniform())) * p;
+  return mapped(clouds::sphere(n), [&](const Vec3& p) { return (1 + sigma * gaussian(random)) * p; });
+}
+/// A disc above a ball, as thick as five deviations of the noise of both.
+Points noisy_disc_over_a_ball() {
+  const double sigma = 0.0365;
+  clouds::Random random(2);
+  const Points disc = mapped(clouds::sphere(3000), [](const Vec3& p) {
+    return Vec3{0.3 + 0.6 * p.x, 0.25 * p.y, 1.55 + 0.09 * p.z};
+  });
+  return mapped(clouds::joined(clouds::sphere(37700), disc), [&](const Vec3& p) {
+    return p + sigma * Vec3{gaussian(random), gaussian(random), gaussian(random)};
   });
 }
 /// `lines` half circles from pole to pole with `n` points each.
@@ -176,6 +188,9 @@ std::vector<HardCloud> of_odd_samplings() {
       {"TubeThatIsHardlyThickerThanItsNoise",
        [] { return clouds::jittered(clouds::torus(1, 0.3, 160, 50), 0.09, 7); },
        {{}, 2 * pi * pi * 0.09, 0.013, 1, 1}},
+      // Between the two only the poles know; the mean planes of the disc's rim do not.
+      {"NoisyDiscOverABall", noisy_disc_over_a_ball,
+       told(ball * (1 + 0.6 * 0.25 * 0.09), 0.01, "noise is larger than", 2)},
       // No sample may be passed by.
       {"TwoScansHalfASpacingApart",
        [] {

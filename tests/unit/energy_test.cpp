@@ -29,7 +29,7 @@ double beta_by_hand(const Tetrahedralization& t, TetrahedronIndex i, std::size_t
 TEST(FaceWeights, AreTheBetaSkeletonMeasure) {
   for (const Points& points : {clouds::random_box(80, 3), clouds::sphere(200)}) {
     const Prepared p = clouds::prepare(points);
-    const FaceWeights faces(p.t, Threads(2));
+    const FaceWeights faces(p.t, {}, Threads(2));
     for (TetrahedronIndex i{0}; i.value < p.t.tetrahedra.size(); ++i.value)
       for (std::size_t k = 0; k < 4; ++k) {
         const TetrahedronIndex n = p.t.neighbours[i][k];
@@ -46,10 +46,28 @@ TEST(FaceWeights, AreTheBetaSkeletonMeasure) {
   }
 }
 
+TEST(FaceWeights, AreOneMoreWithAnIsolatedSample) {
+  const Prepared p = clouds::prepare(clouds::random_box(80, 3));
+  SampleLengths isolated(p.t.sample_count, 0.0f);
+  isolated[SampleIndex{5}] = 2.5f;
+  const FaceWeights faces(p.t, isolated, Threads(1)), without(p.t, {}, Threads(1));
+  std::size_t with = 0;
+  for (TetrahedronIndex i{0}; i.value < p.t.tetrahedra.size(); ++i.value)
+    for (std::size_t k = 0; k < 4; ++k) {
+      std::size_t j = 0;
+      while (j < 4 && !(p.t.tetrahedra[i][j] == SampleIndex{5})) ++j;
+      const bool costs_more = j < 4 && j != k;
+      with += costs_more;
+      EXPECT_NEAR(faces(i, k), without(i, k) + (costs_more ? FaceWeights::cost_of_isolated : 0), 2e-4);
+    }
+  EXPECT_GT(with, 20u);
+}
+
 /// Random costs on a small cloud; what is at the cube is known.
 Energy random_energy(const Prepared& p, std::uint64_t seed, double largest) {
   clouds::Random random(seed);
-  Energy energy{FaceWeights(p.t, Threads(1)), IndexedArray<TetrahedronIndex, float>(p.t.tetrahedra.size()), p.known, 0};
+  Energy energy{FaceWeights(p.t, {}, Threads(1)), IndexedArray<TetrahedronIndex, float>(p.t.tetrahedra.size()), p.known,
+                0};
   for (TetrahedronIndex i{0}; i.value < p.t.tetrahedra.size(); ++i.value)
     if (p.known[i] == Label::unlabelled) energy.data[i] = static_cast<float>(random.uniform(-largest, largest));
   return energy;

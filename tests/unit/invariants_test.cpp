@@ -100,7 +100,7 @@ TEST(Invariants, OfLabelsAndSurfaces) {
   const Tetrahedralization& t = stage.scene.tetrahedralization;
   const TetrahedronLabels random = clouds::random_labels(t, 0.5, 3);
   EXPECT_THAT(fault_in(random, stage.scene, stage.options), HasSubstr("no disc"));
-  Settled settled{random, {FaceWeights(t, Threads(1)), random.values(), stage.evidence.named, 0}};
+  Settled settled{random, {FaceWeights(t, {}, Threads(1)), random.values(), stage.evidence.named, 0}};
   EXPECT_THAT(fault_in(settled, stage.scene, stage.options), HasSubstr("no minimum"));
   TetrahedronLabels labels = random;
   make_manifold(t, stage.scene.stars, stage.scene.poles, stage.evidence.named, labels, Threads(1));
