@@ -41,9 +41,10 @@ constexpr double least_unit_in_spacings = 0.7;
 // The noise of a place is no more than that of most of the places around, which are those of a cluster so many levels
 // up.
 constexpr std::size_t levels_of_usual_noise = 3;
-constexpr double quartile = 0.25;
-// Of noise alone, measured by narrow fits with six degrees of freedom, it is so much of the mean (chi-squared).
-constexpr double quartile_of_noise = 0.58;
+constexpr double lowest_share = 0.05;
+// Of noise alone, measured by narrow fits with six degrees of freedom, the quantile of that share is so much of the
+// mean (chi-squared).
+constexpr double lowest_of_noise = 0.27;
 // What fits to clean samples leave of their shape, in spacings: where noise was measured, and where it was not.
 constexpr double shape_left_beside_noise = 0.03, shape_left = 0.05;
 
@@ -297,9 +298,8 @@ class SurfaceFit {
     return places;
   }
 
-  /// Deviation of the noise of each cluster of a coarse level, by the lower quartile of the narrowest fits of its
-  /// places and of those beside it: fits across edges take shape for noise, and in a small body they may be the
-  /// majority.
+  /// Deviation of the noise of each cluster of a coarse level, by the lowest of the narrowest fits of its places and of
+  /// those beside it: fits across edges take shape for noise, and in a small body nearly all may be such.
   void find_usual_noise(const ClusterPyramid& clusters) {
     const std::vector<double>& variance = chosen_.noise_variance;
     const std::size_t level = coarse(clusters), n = clusters[level].cluster.size();
@@ -307,13 +307,19 @@ class SurfaceFit {
       for (std::uint32_t p = 0; p < variance.size(); ++p)
         if (variance[p] >= 0) visit(clusters.ancestor(FitPlaces::level, p, level), variance[p]);
     });
-    usual_.assign(n, 0);
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    std::vector<double> lowest(n, unknown);
     for_each_index(threads_, n, [&](std::size_t c) {
       std::vector<double> around(of_places[c].begin(), of_places[c].end());
       for (const std::uint32_t beside : clusters[level].neighbours[c])
         around.insert(around.end(), of_places[beside].begin(), of_places[beside].end());
-      if (!around.empty()) usual_[c] = std::sqrt(quantile(around, quartile) / quartile_of_noise);
+      if (!around.empty()) lowest[c] = std::sqrt(quantile(around, lowest_share) / lowest_of_noise);
     });
+    usual_ = lowest; // between many edges the next cluster may know better
+    for (std::size_t c = 0; c < n; ++c) {
+      for (const std::uint32_t beside : clusters[level].neighbours[c]) usual_[c] = std::min(usual_[c], lowest[beside]);
+      if (usual_[c] == unknown) usual_[c] = 0;
+    }
   }
   [[nodiscard]] static std::size_t coarse(const ClusterPyramid& clusters) {
     return std::min(FitPlaces::level + levels_of_usual_noise, clusters.levels() - 1);
