@@ -33,6 +33,10 @@ void DataTerms::add_ties(SampleIndex s, TetrahedronIndex i, const Vec3& centre, 
   for (const PoleIndex p : {first, second})
     if (poles_.tetrahedron[p] == i && label(p) != Label::unlabelled) return add(p, strongest_tie * trust(p));
   if (label(first) == label(second)) return;
+  // Of two poles one often lies within the noise; beyond that the other still knows its side. Elsewhere one alone would
+  // eat away what is thin.
+  const bool is_labelled = label(first) != Label::unlabelled && label(second) != Label::unlabelled;
+  if (!is_labelled && !planes_.has(s)) return;
   const Vec3 way = centre - t_.positions[s];
   const double length = norm(way);
   const auto towards = [&](PoleIndex p) { return poles_.sphere[p].centre - t_.positions[s]; };
@@ -42,7 +46,7 @@ void DataTerms::add_ties(SampleIndex s, TetrahedronIndex i, const Vec3& centre, 
   for (const PoleIndex p : {first, second})
     if (label(p) != Label::unlabelled) strength *= trust(p);
   for (const PoleIndex p : {first, second}) {
-    if (label(p) == Label::unlabelled) continue; // one within the noise; the other still knows its side
+    if (label(p) == Label::unlabelled) continue;
     const Vec3 to = towards(p);
     // The shape of the pole graph's weights between tangent spheres (§3.1).
     add(p, strength * std::exp(steepness * std::clamp(dot(to, way) / (norm(to) * length), -1.0, 1.0)));

@@ -22,12 +22,15 @@ class NoisePlanes {
   NoisePlanes(const Tetrahedralization& tetrahedralization, const Poles& poles, const Labels& labels,
               const SampleModel& model, const Threads& threads);
 
-  /// Is there a plane for this sample, and p near enough for it to know? Beyond, at thin parts, there is another
-  /// surface, and beside a rim there is none.
+  /// Is there a plane for this sample?
+  [[nodiscard]] bool has(SampleIndex s) const {
+    return !plane_.empty() && model_.is_noisy(s) && squared_norm(plane_[s.value / SampleModel::run].normal) > 0;
+  }
+  /// Is there one, and p near enough for it to know? Beyond, at thin parts, there is another surface, and beside a rim
+  /// there is none.
   [[nodiscard]] bool knows(SampleIndex s, const Vec3& p) const {
-    if (plane_.empty() || !model_.is_noisy(s)) return false;
-    const MeanPlane& plane = plane_[s.value / SampleModel::run];
-    return squared_norm(plane.normal) > 0 && distance(p, plane.mean) < reach * static_cast<double>(model_.noise[s]);
+    return has(s) &&
+           distance(p, plane_[s.value / SampleModel::run].mean) < reach * static_cast<double>(model_.noise[s]);
   }
   /// Height of p over the sample's plane in deviations of the noise, > 0 outside.
   [[nodiscard]] double height(SampleIndex s, const Vec3& p) const {
