@@ -14,16 +14,39 @@ namespace {
 // Two bytes a face: the measure need not be known better.
 constexpr double steps = std::numeric_limits<std::int16_t>::max() / (1 + FaceWeights::cost_of_isolated);
 
+// Thinner in its longest edges is a tetrahedron of samples that lie in a plane and on a circle: where its centre is on
+// the way between those of its neighbours rounding decides (32 bits some thousand edges from zero). It has no say.
+constexpr double flat = 1e-4;
+
+/// Of each face the vector across it, twice as long as its area.
+std::array<Vec3, 4> across_faces(const std::array<Vec3, 4>& p) {
+  std::array<Vec3, 4> result;
+  for (std::size_t k = 0; k < 4; ++k)
+    result[k] = cross(p[(k + 2) % 4] - p[(k + 1) % 4], p[(k + 3) % 4] - p[(k + 1) % 4]);
+  return result;
+}
+
+bool is_flat(const std::array<Vec3, 4>& p, double largest_face) {
+  double longest = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    longest = std::max({longest, squared_norm(p[k] - p[(k + 1) % 4]), squared_norm(p[k] - p[(k + 2) % 4])});
+  const double volume = std::fabs(dot(p[0] - p[3], cross(p[1] - p[3], p[2] - p[3])));
+  return volume < flat * std::sqrt(longest) * largest_face;
+}
+
 /// \param isolated which of the vertices are
 std::array<std::int16_t, 4> cosines(const std::array<Vec3, 4>& p, const std::array<bool, 4>& isolated) {
+  const std::array<Vec3, 4> across = across_faces(p);
+  std::array<double, 4> size{};
+  for (std::size_t k = 0; k < 4; ++k) size[k] = norm(across[k]);
+  const bool has_no_say = is_flat(p, *std::max_element(size.begin(), size.end()));
   const Vec3 centre = std::apply(circumcentre, p);
   const double radius = distance(centre, p[0]);
   std::array<std::int16_t, 4> result{};
   for (std::size_t k = 0; k < 4; ++k) {
-    const Vec3 &a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4];
-    const Vec3 normal = cross(b - a, c - a);
-    const double side = dot(normal, p[k] - a) >= 0 ? 1 : -1;
-    const double cosine = side * dot(normal, centre - a) / (norm(normal) * radius);
+    const Vec3& on_face = p[(k + 1) % 4];
+    const double side = dot(across[k], p[k] - on_face) >= 0 ? 1 : -1;
+    const double cosine = has_no_say ? 1 : side * dot(across[k], centre - on_face) / (size[k] * radius);
     const bool costs_more = isolated[(k + 1) % 4] || isolated[(k + 2) % 4] || isolated[(k + 3) % 4];
     result[k] = static_cast<std::int16_t>(std::lround(steps * (cosine >= -1 ? std::min(cosine, 1.0) : -1.0) -
                                                       (costs_more ? steps * FaceWeights::cost_of_isolated : 0)));

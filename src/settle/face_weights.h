@@ -14,6 +14,7 @@ namespace eigencrust {
 /// The β-skeleton measure of Labatut, Pons and Keriven (2009): 1 - min(cos φ₁, cos φ₂), where cos φᵢ is the signed
 /// distance of tetrahedron i's circumcentre from the face, positive on i's own side, over its circumradius. Faces of a
 /// well sampled surface have both centres far away on either side. The ε keeps faces of measure 0 from being free.
+/// Tetrahedra of four samples in one plane have no say: what they are between has.
 /// A face with an isolated sample costs more: it is hardly on the surface, and faces however long that lead to it from
 /// where samples are missing would be as cheap as those that close the gap (docs/decisions/0026).
 class FaceWeights {

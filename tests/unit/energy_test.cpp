@@ -11,19 +11,22 @@ namespace {
 using clouds::Points;
 using clouds::Prepared;
 
-double beta_by_hand(const Tetrahedralization& t, TetrahedronIndex i, std::size_t k) {
-  const auto cosine = [&](TetrahedronIndex at, const std::array<VertexIndex, 3>& face) {
-    const auto& v = t.tetrahedra[at];
-    const Vec3 c = circumcentre(t.positions[v[0]], t.positions[v[1]], t.positions[v[2]], t.positions[v[3]]);
-    const Vec3& a = t.positions[face[0]];
-    Vec3 n = cross(t.positions[face[1]] - a, t.positions[face[2]] - a);
-    n = (1 / norm(n)) * n;
-    if (dot(n, clouds::centroid(t, at) - a) < 0) n = -1 * n;
-    return dot(n, c - a) / distance(c, t.positions[v[0]]);
-  };
+std::array<VertexIndex, 3> face_of(const Tetrahedralization& t, TetrahedronIndex i, std::size_t k) {
   const auto& v = t.tetrahedra[i];
-  const std::array<VertexIndex, 3> face{v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]};
-  return 0.01 + 1 - std::min(cosine(i, face), cosine(t.neighbours[i][k], face));
+  return {v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]};
+}
+double cosine_by_hand(const Tetrahedralization& t, TetrahedronIndex at, const std::array<VertexIndex, 3>& face) {
+  const auto& v = t.tetrahedra[at];
+  const Vec3 c = circumcentre(t.positions[v[0]], t.positions[v[1]], t.positions[v[2]], t.positions[v[3]]);
+  const Vec3& a = t.positions[face[0]];
+  Vec3 n = cross(t.positions[face[1]] - a, t.positions[face[2]] - a);
+  n = (1 / norm(n)) * n;
+  if (dot(n, clouds::centroid(t, at) - a) < 0) n = -1 * n;
+  return dot(n, c - a) / distance(c, t.positions[v[0]]);
+}
+double beta_by_hand(const Tetrahedralization& t, TetrahedronIndex i, std::size_t k) {
+  const auto face = face_of(t, i, k);
+  return 0.01 + 1 - std::min(cosine_by_hand(t, i, face), cosine_by_hand(t, t.neighbours[i][k], face));
 }
 
 TEST(FaceWeights, AreTheBetaSkeletonMeasure) {
@@ -61,6 +64,32 @@ TEST(FaceWeights, AreOneMoreWithAnIsolatedSample) {
       EXPECT_NEAR(faces(i, k), without(i, k) + (costs_more ? FaceWeights::cost_of_isolated : 0), 2e-4);
     }
   EXPECT_GT(with, 20u);
+}
+
+TEST(FaceWeights, FlatTetrahedraHaveNoSay) {
+  // Turned lattices have them where four samples lie on a circle but for rounding.
+  Points points = clouds::cube_surface(6);
+  for (Vec3& p : points)
+    p = {0.6 * p.x - 0.8 * p.y, 0.48 * p.x + 0.36 * p.y - 0.8 * p.z, 0.64 * p.x + 0.48 * p.y + 0.6 * p.z};
+  const Prepared p = clouds::prepare(points);
+  const FaceWeights faces(p.t, {}, Threads(1));
+  const auto thickness = [&](TetrahedronIndex i) {
+    const auto& v = p.t.tetrahedra[i];
+    const Vec3 o = p.t.positions[v[0]];
+    return std::fabs(dot(cross(p.t.positions[v[1]] - o, p.t.positions[v[2]] - o), p.t.positions[v[3]] - o));
+  };
+  std::size_t flat = 0;
+  for (TetrahedronIndex i{0}; i.value < p.t.tetrahedra.size(); ++i.value) {
+    if (p.t.touches_cube(i) || thickness(i) > 1e-6) continue;
+    ++flat;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const TetrahedronIndex n = p.t.neighbours[i][k];
+      if (thickness(n) > 1e-6) {
+        EXPECT_NEAR(faces(i, k), 1.01 - cosine_by_hand(p.t, n, face_of(p.t, i, k)), 1e-3);
+      }
+    }
+  }
+  EXPECT_GT(flat, 20u);
 }
 
 /// Random costs on a small cloud; what is at the cube is known.

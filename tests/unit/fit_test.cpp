@@ -318,8 +318,8 @@ TEST(FittedSurface, SharpEdgesOfCleanPartsStayHoweverTheyLie) {
       }
       return points;
     };
-    EXPECT_NEAR(reconstructed(turned(window), SurfaceKind::automatic).report.mesh.area / window_area, 1, 0.002) << turn;
-    EXPECT_NEAR(reconstructed(turned(rail), SurfaceKind::automatic).report.mesh.area / rail_area, 1, 0.002) << turn;
+    EXPECT_NEAR(reconstructed(turned(window), SurfaceKind::automatic).report.mesh.area / window_area, 1, 1e-6) << turn;
+    EXPECT_NEAR(reconstructed(turned(rail), SurfaceKind::automatic).report.mesh.area / rail_area, 1, 1e-6) << turn;
   }
 }
 
