@@ -15,8 +15,8 @@ namespace {
 constexpr double steps = std::numeric_limits<std::int16_t>::max() / (1 + FaceWeights::cost_of_isolated);
 
 // Thinner in its longest edges is a tetrahedron of samples that lie in a plane and on a circle: where its centre is on
-// the way between those of its neighbours rounding decides (32 bits some thousand edges from zero). It has no say.
-constexpr double flat = 1e-4;
+// the way between those of its neighbours rounding decides (32 bits some hundred edges from zero). It has no say.
+constexpr double flat = 1e-5;
 
 /// Of each face the vector across it, twice as long as its area.
 std::array<Vec3, 4> across_faces(const std::array<Vec3, 4>& p) {

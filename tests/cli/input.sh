@@ -145,7 +145,7 @@ test_sensors_that_do_not_fit() {
 # Ground in degrees and metres is next to a line: what is found holds a few of its samples.
 test_a_scrap_is_no_success() {
   awk 'BEGIN { for (i = 0; i < 55; ++i) for (j = 0; j < 55; ++j)
-    printf "%.9f %.9f %.6f\n", 8.4 + 1.4e-3 * i, 49 + 9e-4 * j, 300 + 10 * sin(i / 9) * cos(j / 7) }' >ground.xyz
+    printf "%.9f %.9f %.6f\n", 8.4 + 1.4e-3 * i, 49 + 9e-4 * j, 300 + 30 * sin(i / 9) * cos(j / 7) }' >ground.xyz
   expect_error 5 "of 3025 samples lie on the surface that was found" ground.xyz -q -o mesh.ply
   expect_error 5 "of 3025 samples lie on the surface that was found" ground.xyz -q -o mesh.ply --inside-point 8.44,49.02,300
   expect_files ground.xyz

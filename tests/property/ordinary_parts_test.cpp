@@ -195,7 +195,7 @@ TEST(OrdinaryParts, AScrapIsNoSuccess) {
   Points points;
   for (int i = 0; i < 55; ++i)
     for (int j = 0; j < 55; ++j)
-      points.push_back({8.4 + 1.4e-3 * i, 49 + 9e-4 * j, 300 + 10 * std::sin(i / 9.0) * std::cos(j / 7.0)});
+      points.push_back({8.4 + 1.4e-3 * i, 49 + 9e-4 * j, 300 + 30 * std::sin(i / 9.0) * std::cos(j / 7.0)});
   const PointCloud cloud = clouds::cloud_of(points);
   Options everything, named;
   everything.components.kind = KeepComponents::Kind::all;
