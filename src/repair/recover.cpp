@@ -1,14 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Samples that the surface passes by, taken in one tetrahedron at a time (not in the paper;
 // docs/decisions/0027).
+#include <algorithm>
+#include <array>
+
 #include "geometry/tetrahedron.h"
 #include "repair/generators.h"
+#include "samples/scales.h"
 
 namespace eigencrust {
 namespace {
 
 // An outlier is lonely: its nearest sample is farther away than the surface's samples are from each other.
 constexpr double max_loneliness = 1.5;
+
+/// Square of its longest edge.
+double squared_length(const Tetrahedralization& t, TetrahedronIndex i) {
+  const std::array<Vec3, 4> p = corners_of(t, i);
+  double longest = 0;
+  for (std::size_t a = 0; a < p.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) longest = std::max(longest, squared_norm(p[a] - p[b]));
+  return longest;
+}
 
 /// The tetrahedron of the star with a surface triangle opposite s that costs least; invalid if none makes it better.
 /// Turning it puts s on the surface and neither opens nor joins anything.
@@ -30,6 +43,8 @@ TetrahedronIndex best_tetrahedron(const Moves& moves, SampleIndex s) {
         spacing += static_cast<double>(scene.model.spacing[scene.t.sample(v[j])]) /
                    static_cast<double>(face_opposite[k].size());
     if (nearest > max_loneliness * spacing) continue;
+    // What is longer than samples bear out leads to another part: tips beside each other were strung together.
+    if (squared_length(scene.t, i) > longest_edge * longest_edge * spacing * spacing) continue;
     const double cost = moves.labels().cost_of(i);
     if (cost >= least) continue;
     least = cost;

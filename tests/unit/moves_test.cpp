@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The engine's books against what is counted afresh, and its mandatory moves; each generator has tests of its own.
+#include <eigencrust/eigencrust.h>
 #include <gmock/gmock.h>
 
 #include "moves.h"
@@ -229,6 +230,33 @@ TEST(Moves, ValuesAgreeWithTheEnergyInTheEnd) {
     EXPECT_EQ(std::signbit(stage.labels.value(i)), labels[i] == Label::inside);
     EXPECT_LE(std::fabs(stage.labels.value(i)), 1.0f);
   }
+}
+
+TEST(Moves, TipsAreNotStrungTogether) {
+  // Cones side by side, 25 spacings high and 14 apart: the last samples of a tip are too few for it.
+  clouds::Random random(1);
+  clouds::Points points;
+  for (int cone = 0; cone < 5; ++cone)
+    for (int i = 0; i < 300; ++i) {
+      const double part = std::sqrt(random.uniform()), angle = random.uniform(0, 2 * std::numbers::pi);
+      points.push_back({14.0 * cone + 3.5 * part * std::cos(angle), 3.5 * part * std::sin(angle), 25 * (1 - part)});
+    }
+  for (double x = -7; x < 63.5; x += 1)
+    for (double y = -7; y < 7.5; y += 1)
+      for (const double z : {0.0, -8.0})
+        if (z < 0 || std::hypot(x - 14 * std::round(x / 14), y) > 3.5) points.push_back({x, y, z});
+  for (double z = -7; z < -0.5; z += 1) {
+    for (double x = -7; x < 63.5; x += 1) points.insert(points.end(), {{x, -7, z}, {x, 7, z}});
+    for (double y = -6; y < 6.5; y += 1) points.insert(points.end(), {{-7, y, z}, {63, y, z}});
+  }
+  Options options;
+  options.surface = SurfaceKind::samples;
+  const TriangleMesh mesh = reconstruct(clouds::cloud_of(points), options).mesh;
+  double longest = 0;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      longest = std::max(longest, distance(mesh.vertices[t[k]], mesh.vertices[t[(k + 1) % 3]]));
+  EXPECT_LT(longest, 7);
 }
 
 TEST(Moves, CheckpointMayCancel) {
