@@ -283,8 +283,12 @@ std::string describe_size(const MeshSummary& mesh) {
 std::string describe_moved(const Report& report) {
   if (!report.moved) return {};
   std::ostringstream out;
-  out << "  " << grouped(report.moved->vertices) << " vertices moved from their samples: median "
-      << rounded(report.moved->median) << ", 99 % below " << rounded(report.moved->q99) << "\n";
+  if (report.moved->vertices > 0 || report.moved->strays == 0)
+    out << "  " << grouped(report.moved->vertices) << " vertices moved from their samples: median "
+        << rounded(report.moved->median) << ", 99 % below " << rounded(report.moved->q99) << "\n";
+  if (report.moved->strays > 0)
+    out << "  " << count_of(report.moved->strays, "stray point", "stray points")
+        << " evened out where samples are missing\n";
   return out.str();
 }
 

@@ -111,7 +111,11 @@ Json json_of(const std::optional<OneSided>& scan) {
 
 Json json_of(const std::optional<MovedReport>& moved) {
   if (!moved) return {};
-  return {{"vertices", moved->vertices}, {"median", moved->median}, {"q99", moved->q99}, {"max", moved->max}};
+  return {{"vertices", moved->vertices},
+          {"median", moved->median},
+          {"q99", moved->q99},
+          {"max", moved->max},
+          {"strays", moved->strays}};
 }
 
 Json json_of(const DistanceReport& distances) { return {{"mean", distances.mean}, {"max", distances.max}}; }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "fit/bridges.h"
 #include "fit/fit.h"
 #include "fit/uncross.h"
 #include "geometry/exact_difference.h"
@@ -26,27 +27,41 @@ bool is_exact_translation(const Tetrahedralization& t, const PointCloud& cloud, 
   return rounded == 0;
 }
 
-/// Moves vertices to the middle of the noise. \return whether any moved
-bool fit(Surface& surface, const SurfaceFans& fans, const Scene& scene, SurfaceKind kind, const Threads& threads) {
+/// Moves vertices to the middle of the noise, and those of strays to the middle of their bridges.
+/// \param strays see strays_on_bridges() \return whether any moved
+bool fit(Surface& surface, const SurfaceFans& fans, const Scene& scene, SurfaceKind kind,
+         std::span<const std::uint32_t> strays, const Threads& threads) {
   const Tetrahedralization& t = scene.tetrahedralization;
   const SampleModel& model = scene.measures.model;
   const std::vector<float> noise = noise_to_fit(surface, fans, model, kind, threads);
-  if (noise.empty()) return false;
+  if (noise.empty() && strays.empty()) return false;
   const auto samples = std::span(t.positions.raw()).first(t.sample_count);
-  std::vector<Vec3> fitted = fitted_vertices(surface, fans, samples, model, noise, threads);
+  std::vector<Vec3> fitted =
+      noise.empty() ? surface.mesh.vertices : fitted_vertices(surface, fans, samples, model, noise, threads);
+  flatten_bridges(strays, fans, fitted);
   const bool moved = fitted != surface.mesh.vertices;
   surface.mesh.vertices = std::move(fitted);
   return moved;
 }
 
-/// How far the vertices are from the input points that they were.
-MovedReport moved_report(std::span<const Vec3> before, std::span<const Vec3> after, std::uint64_t crossing) {
+/// How far the vertices are from the input points that they were. \param strays increasing
+MovedReport moved_report(std::span<const Vec3> before, std::span<const Vec3> after,
+                         std::span<const std::uint32_t> strays) {
+  MovedReport report;
   std::vector<double> distances;
-  for (std::size_t v = 0; v < before.size(); ++v)
-    if (before[v] != after[v]) distances.push_back(distance(before[v], after[v]));
-  if (distances.empty()) return {0, 0, 0, 0, crossing};
-  return {distances.size(), median(distances), quantile(distances, 0.99),
-          *std::max_element(distances.begin(), distances.end()), crossing};
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    if (before[v] == after[v]) continue;
+    if (std::binary_search(strays.begin(), strays.end(), v))
+      ++report.strays;
+    else
+      distances.push_back(distance(before[v], after[v]));
+  }
+  if (distances.empty()) return report;
+  report.vertices = distances.size();
+  report.median = median(distances);
+  report.q99 = quantile(distances, 0.99);
+  report.max = *std::max_element(distances.begin(), distances.end());
+  return report;
 }
 
 /// No crossings, and no piece that turned over: pieces that did are back at their rows, and what crosses these moves
@@ -130,11 +145,14 @@ bool move_vertices(Surface& surface, const PointCloud& cloud, const Scene& scene
   const Tetrahedralization& t = scene.tetrahedralization;
   const std::vector<Vec3> rows = input_points(surface.sample_of, t, cloud);
   std::optional<SurfaceFans> fans;
+  std::vector<std::uint32_t> strays;
   bool fitted = false;
   if (options.surface != SurfaceKind::samples)
     run.stage("fit", [&] {
       fans.emplace(surface.mesh);
-      fitted = fit(surface, *fans, scene, options.surface, threads);
+      // What a scanner saw is somewhere, however lonely it is.
+      if (cloud.sensor_of.empty()) strays = strays_on_bridges(surface, *fans, scene.measures.model);
+      fitted = fit(surface, *fans, scene, options.surface, strays, threads);
     });
   if (!fitted && options.smooth == 0) return false;
   if (options.smooth > 0)
@@ -152,7 +170,8 @@ bool move_vertices(Surface& surface, const PointCloud& cloud, const Scene& scene
     crossing = counts.left;
     return counts;
   });
-  run.report().moved = moved_report(rows, surface.mesh.vertices, crossing);
+  run.report().moved = moved_report(rows, surface.mesh.vertices, strays);
+  run.report().moved->crossing = crossing;
   return true;
 }
 
