@@ -44,11 +44,14 @@ KnownBeforehand what_is_known(const PointCloud& cloud, const Scene& scene, const
                               const Threads& threads) {
   KnownBeforehand known;
   known.surroundings = surroundings_of(cloud, scene, options, threads);
-  known.named = named_labels(scene, known.surroundings, options, threads);
+  known.labels = known.named = named_labels(scene, known.surroundings, options, threads);
   if (known.surroundings.kind == SceneKind::facade && cloud.sensor_of.empty()) {
     const SampleLengths depth = crossing_depths(scene.measures.model, options);
+    const Axis front = known.surroundings.front;
+    const bool is_seen = is_seen_along(scene, front, threads);
     known.hidden = std::make_shared<const HiddenCounts>(
-        count_hidden(scene, direction_of(known.surroundings.front), depth, known.named, threads));
+        count_hidden(scene, direction_of(front), is_seen, depth, known.named, threads));
+    if (is_seen) label_hidden(*known.hidden, known.labels);
   }
   return known;
 }
@@ -61,7 +64,7 @@ Evidence gather_evidence(const PointCloud& cloud, const Scene& scene, const Cont
   KnownBeforehand known = run.stage("evidence", [&] { return what_is_known(cloud, scene, options, threads); });
   evidence.surroundings = known.surroundings;
   evidence.named = std::move(known.named);
-  evidence.labels = evidence.named;
+  evidence.labels = std::move(known.labels);
   evidence.hidden = std::move(known.hidden);
   if (cloud.sensor_of.empty()) return evidence;
   LinesOfSight sight =

@@ -25,13 +25,14 @@ struct LinesOfSight {
 struct KnownBeforehand {
   Surroundings surroundings;
   Labels named;                               ///< from the cube and the user's points
+  Labels labels;                              ///< and from what a façade that was seen along its axis hides
   std::shared_ptr<const HiddenCounts> hidden; ///< see Evidence
 };
 
 struct Evidence {
   Surroundings surroundings;
   Labels named;  ///< from the cube, the façade and the user's points
-  Labels labels; ///< and from the lines of sight
+  Labels labels; ///< and from the lines of sight, or from what was seen along the axis of a façade
   /// The lines do not change when points are named: those of a session are shared. Null: no sensor is known.
   std::shared_ptr<const SightCrossings> crossings;
   /// How many lines cross each tetrahedron, how many samples lie right in front of it; see SightLabels. Null likewise.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <limits>
+#include <vector>
 
 #include "tetrahedra/segment_walk.h"
 
@@ -36,9 +38,9 @@ bool is_in_sheet(const Scene& scene, TetrahedronIndex one, TetrahedronIndex othe
 }
 
 /// visit(tetrahedron) for those that the line crosses, up to the next sheet of samples: what lies behind that is not
-/// hidden by the line's own sample, which may well have been seen from there.
+/// hidden by the line's own sample, which may well have been seen from there. \return whether there was none
 template <class Visit>
-void cross_to_next_sheet(const Scene& scene, const SightLine& line, const Visit& visit) {
+bool cross_to_next_sheet(const Scene& scene, const SightLine& line, const Visit& visit) {
   const Tetrahedralization& t = scene.tetrahedralization;
   const auto depth = static_cast<double>(line.depth);
   const Vec3 start = t.positions[line.sample], way = line.target - start, direction = (1 / norm(way)) * way;
@@ -46,7 +48,7 @@ void cross_to_next_sheet(const Scene& scene, const SightLine& line, const Visit&
   bool has_left = false; // its own sheet
   for (TetrahedronIndex last; walk.next(); last = walk.tetrahedron()) {
     const TetrahedronIndex at = walk.tetrahedron();
-    if (has_left && is_in_sheet(scene, last, at)) return;
+    if (has_left && is_in_sheet(scene, last, at)) return false;
     const Vec3 middle = start + (walk.depth() + walk.exit_depth()) / 2 * direction;
     // As lines of sight: near the samples nothing is told.
     if (std::any_of(t.tetrahedra[at].begin(), t.tetrahedra[at].end(),
@@ -55,35 +57,65 @@ void cross_to_next_sheet(const Scene& scene, const SightLine& line, const Visit&
     has_left = true;
     visit(at);
   }
+  return true;
+}
+
+/// How many lines go through each tetrahedron. Whole numbers: any order gives the same.
+struct Tallies {
+  explicit Tallies(std::size_t n) : hidden(n), free(n) {}
+  std::vector<std::atomic<std::int32_t>> hidden; ///< by samples, less what they were seen through
+  std::vector<std::atomic<std::int32_t>> free;   ///< up to the hull
+};
+
+/// The lines of a sample, behind it and before it.
+void add_lines(const Scene& scene, const SightLine& behind, const SightLine& before, const Labels& named,
+               std::vector<TetrahedronIndex>& crossed, Tallies& tallies) {
+  const auto add = [&](TetrahedronIndex at, std::int32_t worth) {
+    if (named[at] != Label::outside) tallies.hidden[at.value].fetch_add(worth, std::memory_order_relaxed);
+  };
+  cross_to_next_sheet(scene, behind, [&](TetrahedronIndex at) { add(at, 1); });
+  crossed.clear();
+  const bool is_free = cross_to_next_sheet(scene, before, [&](TetrahedronIndex at) { crossed.push_back(at); });
+  for (const TetrahedronIndex at : crossed) {
+    add(at, -worth_of_sight);
+    if (is_free) tallies.free[at.value].fetch_add(1, std::memory_order_relaxed);
+  }
 }
 
 } // namespace
 
-HiddenCounts count_hidden(const Scene& scene, const Vec3& front, SampleLengthsView depth, const Labels& named,
-                          const Threads& threads) {
+HiddenCounts count_hidden(const Scene& scene, const Vec3& front, bool all_seen, SampleLengthsView depth,
+                          const Labels& named, const Threads& threads) {
   const Tetrahedralization& t = scene.tetrahedralization;
   Box3 box;
   for (SampleIndex s{0}; s.value < t.sample_count; ++s.value) box.add(t.positions[VertexIndex(s)]);
   const Vec3 way = box.diagonal() * front;
-  std::vector<std::atomic<std::int32_t>> sum(t.tetrahedra.size()); // whole numbers: any order gives the same
-  for_each_index(
-      threads, t.sample_count,
-      [&](std::size_t i) {
-        const SampleIndex s{static_cast<std::uint32_t>(i)};
-        for (const bool is_behind : {true, false}) {
-          const SightLine line{s, depth[s], t.positions[VertexIndex(s)] + (is_behind ? -1.0 : 1.0) * way};
-          cross_to_next_sheet(scene, line, [&](TetrahedronIndex at) {
-            if (named[at] != Label::outside)
-              sum[at.value].fetch_add(is_behind ? 1 : -worth_of_sight, std::memory_order_relaxed);
-          });
-        }
-      },
-      costly_block);
-  HiddenCounts hidden(sum.size());
-  for_each_index(threads, sum.size(), [&](std::size_t i) {
-    hidden.raw()[i] = static_cast<std::uint8_t>(std::clamp(sum[i].load(std::memory_order_relaxed), 0, 255));
+  Tallies tallies(t.tetrahedra.size());
+  for_blocks(threads, t.sample_count, costly_block, [&](std::size_t begin, std::size_t end, std::size_t) {
+    std::vector<TetrahedronIndex> crossed;
+    for (SampleIndex s{static_cast<std::uint32_t>(begin)}; s.value < end; ++s.value) {
+      if (scene.measures.model.isolated[s] > 0) continue;
+      const Vec3& place = t.positions[VertexIndex(s)];
+      add_lines(scene, {s, depth[s], place - way}, {s, depth[s], place + way}, named, crossed, tallies);
+    }
+  });
+  HiddenCounts hidden(t.tetrahedra.size());
+  for_each_index(threads, hidden.size(), [&](std::size_t i) {
+    constexpr std::int32_t most = std::numeric_limits<std::uint8_t>::max();
+    const std::int32_t sum = tallies.hidden[i].load(std::memory_order_relaxed);
+    const std::int32_t free = all_seen ? tallies.free[i].load(std::memory_order_relaxed) : 0;
+    hidden.raw()[i] =
+        static_cast<std::int16_t>(std::clamp(sum > 0 ? sum : std::max(-free, sum / worth_of_sight), -most, most));
   });
   return hidden;
+}
+
+void label_hidden(const HiddenCounts& hidden, Labels& labels) {
+  for (TetrahedronIndex i{0}; i.value < labels.size(); ++i.value) {
+    if (labels[i] != Label::unlabelled) continue;
+    if (hidden[i] < 0) labels[i] = Label::outside;
+    if (hidden[i] >= worth_of_sight) labels[i] = Label::inside;
+  }
 }
 
 } // namespace eigencrust

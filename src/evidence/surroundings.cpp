@@ -24,6 +24,9 @@ constexpr std::uint32_t looked_at = 2048;
 // Of ground with what stands on it, trees included, up to half of the samples are stacked; of closed bodies three
 // quarters and more.
 constexpr double most_stacked = 0.5, perhaps_stacked = 0.65;
+// Of roofs, hills and crowns of trees from the air, with a hundredth of strays, up to 0.15 are; of a wall with what
+// hangs on it, scanned from the ground, 0.4.
+constexpr double few_stacked = 0.2;
 // Roofs without their walls have four times as much space behind them as in front, ground with objects at most as much.
 constexpr double cap_of_body = 2;
 // Lenses and plates thinner than their samples are apart are not stacked; but the hull goes along both of their sides.
@@ -254,6 +257,10 @@ AxisReading read_axis(const Scene& scene, int axis, const Threads& threads) {
   reading.stacked = share_stacked(scene, axis, threads);
   if (reading.stacked <= most_stacked) reading.cap = cap_of(scene, axis, threads);
   return reading;
+}
+
+bool is_seen_along(const Scene& scene, Axis front, const Threads& threads) {
+  return share_stacked(scene, static_cast<int>(front) / 2, threads) <= few_stacked;
 }
 
 HullSight hull_sight(const Tetrahedralization& t, const VertexStars& stars, std::span<const SightLine> lines,

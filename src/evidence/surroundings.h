@@ -35,6 +35,10 @@ struct AxisReading {
   /// -1: not measured.
   double cap = -1;
 };
+/// Do so few samples of a façade have another one before or behind them that it was seen along its axis, as ground is
+/// from the air? Scans from the ground see walls, and what is below something.
+bool is_seen_along(const Scene& scene, Axis front, const Threads& threads);
+
 /// Some thousand samples are looked at. `cap` is measured only where `stacked` is small.
 AxisReading read_axis(const Scene& scene, int axis, const Threads& threads);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 
 #include "geometry/tetrahedron.h"
@@ -16,8 +17,8 @@ constexpr double cost_of_sigma = 0.5;
 // What a line in front costs who is inside, a sample right in front who is outside (log-odds of a line that is true
 // nineteen times in twenty are 3).
 constexpr float cost_of_line = 3, cost_of_sample = 2;
-// What a sample in front costs who is outside, hidden behind a façade: it need not be solid right behind it, so less
-// than what is known of lines.
+// What a sample in front costs who is outside, hidden behind a façade, and a line along its axis who is inside: it need
+// not be solid right behind a sample, nor seen along the axis, so less than what is known of lines.
 constexpr float cost_of_hiding = 1;
 
 } // namespace
@@ -69,7 +70,10 @@ void DataTerms::add_heights(TetrahedronIndex i, const Vec3& middle, DataTerm& su
 }
 
 void DataTerms::add_lines(TetrahedronIndex i, DataTerm& sum) const {
-  if (hidden_) sum.inside += cost_of_hiding * (*hidden_)[i];
+  if (hidden_) {
+    const std::int16_t count = (*hidden_)[i];
+    (count > 0 ? sum.inside : sum.outside) += cost_of_hiding * static_cast<float>(std::abs(count));
+  }
   if (!sight_ || sight_->front.empty()) return;
   sum.outside += cost_of_line * sight_->front[i];
   sum.inside += cost_of_sample * sight_->behind[i];

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "evidence/surroundings.h"
 
+#include <eigencrust/eigencrust.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -127,8 +129,8 @@ TEST(Hidden, IsWhatLiesBehindSamplesAndBeforeNone) {
   const Tetrahedralization& t = scene.tetrahedralization;
   const SampleLengths depth(t.sample_count, 0.5F);
   const Labels named(t.tetrahedra.size());
-  const HiddenCounts hidden = count_hidden(scene, {0, 0, 1}, depth, named, Threads(2));
-  const HiddenCounts from_below = count_hidden(scene, {0, 0, -1}, depth, named, Threads(1));
+  const HiddenCounts hidden = count_hidden(scene, {0, 0, 1}, false, depth, named, Threads(2));
+  const HiddenCounts from_below = count_hidden(scene, {0, 0, -1}, false, depth, named, Threads(1));
   double under = 0, hiding = 0, free = 0, free_but_hiding = 0; // volumes
   for (TetrahedronIndex i{0}; i.value < hidden.size(); ++i.value) {
     if (t.touches_cube(i)) continue;
@@ -157,7 +159,7 @@ TEST(Hidden, IsNothingBelowWhatWasSeenFromBelow) {
   const Scene scene = scene_of(points);
   const Tetrahedralization& t = scene.tetrahedralization;
   const SampleLengths depth(t.sample_count, 0.5F);
-  const HiddenCounts hidden = count_hidden(scene, {0, 0, 1}, depth, Labels(t.tetrahedra.size()), Threads(2));
+  const HiddenCounts hidden = count_hidden(scene, {0, 0, 1}, false, depth, Labels(t.tetrahedra.size()), Threads(2));
   double free = 0, hiding = 0; // volumes
   for (TetrahedronIndex i{0}; i.value < hidden.size(); ++i.value) {
     const Vec3 p = clouds::centroid(t, i) + t.origin;
@@ -168,6 +170,67 @@ TEST(Hidden, IsNothingBelowWhatWasSeenFromBelow) {
   }
   EXPECT_GT(free, 2000);
   EXPECT_LT(hiding, 0.25 * free); // where one line more from above meets a sliver
+}
+
+TEST(Hidden, LabelsWhatWasSeenAlongTheAxis) {
+  const Scene scene = scene_of(heights(60, roof));
+  const Tetrahedralization& t = scene.tetrahedralization;
+  EXPECT_TRUE(is_seen_along(scene, Axis::plus_z, Threads(2)));
+  EXPECT_FALSE(is_seen_along(scene, Axis::plus_x, Threads(2)));
+  const SampleLengths depth(t.sample_count, 0.5F);
+  Labels labels(t.tetrahedra.size());
+  label_hidden(count_hidden(scene, {0, 0, 1}, true, depth, labels, Threads(2)), labels);
+  double under = 0, inside = 0, free = 0, outside = 0, wrong = 0; // volumes
+  for (TetrahedronIndex i{0}; i.value < labels.size(); ++i.value) {
+    const Vec3 p = clouds::centroid(t, i) + t.origin;
+    const double volume = clouds::volume(t, i);
+    if (t.touches_cube(i) || p.z < 1 || p.z > 29) continue;
+    if (roof(p.x - 1, p.y - 1) > 0 && roof(p.x + 1, p.y + 1) > 0) {
+      under += volume;
+      if (labels[i] == Label::inside) inside += volume;
+      if (labels[i] == Label::outside) wrong += volume;
+    } else if (roof(p.x - 1, p.y - 1) == 0 && roof(p.x + 1, p.y + 1) == 0) {
+      free += volume;
+      if (labels[i] == Label::outside) outside += volume;
+      if (labels[i] == Label::inside) wrong += volume;
+    }
+  }
+  EXPECT_GT(inside, 0.85 * under); // slivers between two lines are crossed by none
+  EXPECT_GT(outside, 0.8 * free);
+  EXPECT_LT(wrong, 0.05 * (under + free));
+}
+
+TEST(Surroundings, RoofsFromTheAirStandOnTheGround) {
+  // Three houses of which no wall was seen, noise of 0.3 spacings in height; then with strays above and below.
+  const auto roofs = [](double x, double y) {
+    return std::hypot(x - 20, y - 20) < 9 || (std::fabs(x - 55) < 8 && std::fabs(y - 20) < 12) ||
+                   (std::fabs(x - 35) < 14 && std::fabs(y - 58) < 9)
+               ? 18.0
+               : 0.0;
+  };
+  clouds::Random random(9);
+  Points points = heights(80, roofs);
+  for (Vec3& p : points) p.z += 0.5 * random.uniform(-1, 1);
+  const Points clean = points;
+  for (const std::size_t strays : {0u, 60u}) {
+    points = clean;
+    for (std::size_t i = 0; i < strays; ++i)
+      points.push_back({random.uniform(0, 80), random.uniform(0, 80), random.uniform(-5, 30)});
+    Options options;
+    options.threads = 2;
+    const Result result = reconstruct(clouds::cloud_of(points), options);
+    EXPECT_EQ(result.report.surroundings.kind, SceneKind::facade);
+    EXPECT_EQ(result.report.mesh.genus, 0) << strays;
+    // Each cell of the map is under its roof, or there is air above its ground.
+    std::size_t on_roofs = 0, tents = 0;
+    for (const Vec3& p : result.mesh.vertices) {
+      on_roofs += p.z > 16;
+      tents += p.z > 3 && p.z < 16;
+    }
+    const auto of_roofs = std::count_if(clean.begin(), clean.end(), [](const Vec3& p) { return p.z > 16; });
+    EXPECT_GT(static_cast<double>(on_roofs), 0.95 * static_cast<double>(of_roofs)) << strays;
+    EXPECT_LT(tents, 30u) << strays;
+  }
 }
 
 TEST(Surroundings, OfGroundAreTheSameWithSensors) {
