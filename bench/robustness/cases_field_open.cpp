@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cases.h"
+#include "degradations.h"
 #include "field_scenes.h"
 #include "open_scenes.h"
 
@@ -118,6 +119,18 @@ struct GroundRow {
   double kept, up;
 };
 
+Scene roofs(double strays, std::uint64_t seed, unsigned threads) {
+  HeightScan scan{10, 0.2, 0.06, [](double x, double y) {
+                    const bool is_round = std::hypot(x + 5, y + 5) < 2.2;
+                    const bool is_long = std::fabs(x - 4) < 1.6 && std::fabs(y + 4) < 4;
+                    const bool is_wide = std::fabs(x + 1) < 5 && std::fabs(y - 5) < 2;
+                    return is_round || is_long || is_wide ? 3.0 : 0.0;
+                  }};
+  Scene scene = height_scan(scan, seed, threads);
+  add_outliers(scene, {strays, OutlierPlace::box, 1.5}, seed + 1);
+  return scene;
+}
+
 std::vector<GroundRow> ground_rows() {
   const auto heights = [](HeightScan scan) {
     return [scan](std::uint64_t seed, unsigned threads) { return height_scan(scan, seed, threads); };
@@ -138,6 +151,10 @@ std::vector<GroundRow> ground_rows() {
       {"houses", "houses on flat ground from the air, few samples on their walls",
        [](std::uint64_t seed, unsigned threads) { return houses_from_the_air(0.35, 0.02, seed, threads); }, 0.95,
        0.8}, // walls do not look up
+      {"roofs", "flat roofs 15 spacings high of which no wall was seen, noise 0.3 spacings",
+       [](std::uint64_t seed, unsigned threads) { return roofs(0, seed, threads); }, 0.95, 0.45},
+      {"roofs+1%", "the same among strays from above the roofs to below the ground",
+       [](std::uint64_t seed, unsigned threads) { return roofs(0.01, seed, threads); }, 0.95, 0.45},
       {"street", "a street before a facade with windows set back",
        [](std::uint64_t seed, unsigned threads) { return street(0.15, 0.004, seed, threads); }, 0.95, 0.5},
   };
