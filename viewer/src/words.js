@@ -39,7 +39,13 @@ export function measured() {
       "Every corner of the mesh is one of the measured points, digit for digit" +
         (report.base ? ", but for those of the base." : "."),
     );
-  if (report.moved !== null)
+  const strays = report.moved?.strays ?? 0;
+  if (strays > 0)
+    lines.push(
+      `${counted(strays, "stray point holds", "stray points hold")} the surface where others are missing: evened ` +
+        `out, ${strays === 1 ? "it is" : "they are"} not where ${strays === 1 ? "it was" : "they were"} measured.`,
+    );
+  if (report.moved !== null && (report.moved.vertices > 0 || strays === 0))
     lines.push(
       `${counted(report.moved.vertices, "corner", "corners")} of the mesh moved from the measured points ` +
         `${report.options.smooth > 0 ? "by smoothing" : "to the middle of their noise"}, half of them by less than ` +
