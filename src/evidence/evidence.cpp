@@ -48,7 +48,7 @@ KnownBeforehand what_is_known(const PointCloud& cloud, const Scene& scene, const
   if (known.surroundings.kind == SceneKind::facade && cloud.sensor_of.empty()) {
     const SampleLengths depth = crossing_depths(scene.measures.model, options);
     const Axis front = known.surroundings.front;
-    const bool is_seen = is_seen_along(scene, front, threads);
+    const bool is_seen = options.weights == Weights::evidence && is_seen_along(scene, front, threads);
     known.hidden = std::make_shared<const HiddenCounts>(
         count_hidden(scene, direction_of(front), is_seen, depth, known.named, threads));
     if (is_seen) label_hidden(*known.hidden, known.labels);
