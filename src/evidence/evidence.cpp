@@ -3,16 +3,18 @@
 #include "evidence/contradictions.h"
 #include "evidence/named_points.h"
 #include "evidence/surroundings.h"
+#include "evidence/walls.h"
 
 #include <algorithm>
 
 namespace eigencrust {
 namespace {
 
-Labels named_labels(const Scene& scene, const Surroundings& surroundings, const Options& options,
-                    const Threads& threads) {
+Labels named_labels(const Scene& scene, const Surroundings& surroundings,
+                    const std::vector<TetrahedronIndex>& beyond_walls, const Options& options, const Threads& threads) {
   const Tetrahedralization& t = scene.tetrahedralization;
   Labels labels = known_labels(t, scene.stars, options.outside_points, options.inside_points, surroundings, threads);
+  for (const TetrahedronIndex i : beyond_walls) labels[i] = Label::inside;
   name_poles(t, scene.poles, options.outside_points, options.inside_points, threads, labels);
   return labels;
 }
@@ -40,19 +42,30 @@ LinesOfSight follow_lines(const PointCloud& cloud, const Scene& scene, const Lab
   return sight;
 }
 
+/// Of a façade without sensors: what its samples hide, and what lies beyond its walls.
+void look_along(const Scene& scene, const Options& options, const Threads& threads, KnownBeforehand& known) {
+  const SampleLengths depth = crossing_depths(scene.measures.model, options);
+  const Axis front = known.surroundings.front;
+  HiddenCounts hidden = count_hidden(scene, direction_of(front), depth, known.named, threads);
+  const bool has_paper_weights = options.weights == Weights::paper;
+  if (!has_paper_weights) {
+    known.beyond_walls = beyond_walls(scene, direction_of(front), hidden, known.named);
+    for (const TetrahedronIndex i : known.beyond_walls) known.named[i] = known.labels[i] = Label::inside;
+  }
+  if (!has_paper_weights && is_seen_along(scene, front, threads))
+    label_hidden(hidden, known.labels);
+  else // no sample is known to have been seen along the axis
+    for (std::int16_t& count : hidden.raw()) count = std::max<std::int16_t>(count, 0);
+  known.hidden = std::make_shared<const HiddenCounts>(std::move(hidden));
+}
+
 KnownBeforehand what_is_known(const PointCloud& cloud, const Scene& scene, const Options& options,
                               const Threads& threads) {
   KnownBeforehand known;
   known.surroundings = surroundings_of(cloud, scene, options, threads);
-  known.labels = known.named = named_labels(scene, known.surroundings, options, threads);
-  if (known.surroundings.kind == SceneKind::facade && cloud.sensor_of.empty()) {
-    const SampleLengths depth = crossing_depths(scene.measures.model, options);
-    const Axis front = known.surroundings.front;
-    const bool is_seen = options.weights == Weights::evidence && is_seen_along(scene, front, threads);
-    known.hidden = std::make_shared<const HiddenCounts>(
-        count_hidden(scene, direction_of(front), is_seen, depth, known.named, threads));
-    if (is_seen) label_hidden(*known.hidden, known.labels);
-  }
+  known.labels = known.named = named_labels(scene, known.surroundings, {}, options, threads);
+  if (known.surroundings.kind == SceneKind::facade && cloud.sensor_of.empty())
+    look_along(scene, options, threads, known);
   return known;
 }
 
@@ -66,6 +79,7 @@ Evidence gather_evidence(const PointCloud& cloud, const Scene& scene, const Cont
   evidence.named = std::move(known.named);
   evidence.labels = std::move(known.labels);
   evidence.hidden = std::move(known.hidden);
+  evidence.beyond_walls = std::move(known.beyond_walls);
   if (cloud.sensor_of.empty()) return evidence;
   LinesOfSight sight =
       run.stage("line_of_sight", [&] { return follow_lines(cloud, scene, evidence.named, options, threads); });
@@ -78,7 +92,7 @@ Evidence gather_evidence(const PointCloud& cloud, const Scene& scene, const Cont
 
 Evidence with_points(const Evidence& before, const Scene& scene, const Context& context) {
   Evidence evidence = before;
-  evidence.named = named_labels(scene, before.surroundings, context.options, context.threads);
+  evidence.named = named_labels(scene, before.surroundings, before.beyond_walls, context.options, context.threads);
   for (std::uint32_t i = 0; i < evidence.named.size(); ++i) {
     const Label label = evidence.named.raw()[i];
     if (label != before.named.raw()[i]) evidence.labels.raw()[i] = label;

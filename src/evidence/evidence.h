@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <eigencrust/stages.h>
 
@@ -27,6 +28,7 @@ struct KnownBeforehand {
   Labels named;                               ///< from the cube and the user's points
   Labels labels;                              ///< and from what a façade that was seen along its axis hides
   std::shared_ptr<const HiddenCounts> hidden; ///< see Evidence
+  std::vector<TetrahedronIndex> beyond_walls; ///< see Evidence
 };
 
 struct Evidence {
@@ -40,6 +42,7 @@ struct Evidence {
   std::optional<OneSided> one_sided; ///< the sensors all lie on one side
   /// Null: no façade, or there are lines of sight, which know better.
   std::shared_ptr<const HiddenCounts> hidden;
+  std::vector<TetrahedronIndex> beyond_walls; ///< named inside, see walls.h
 };
 
 /// The stages evidence and, where sensors are known, line_of_sight.

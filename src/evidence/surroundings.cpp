@@ -11,6 +11,7 @@
 
 #include <eigencrust/error.h>
 
+#include "evidence/hull.h"
 #include "samples/scales.h"
 #include "tetrahedra/segment_walk.h"
 
@@ -152,16 +153,6 @@ double cap_of(const Scene& scene, int axis, const Threads& threads) {
   return behind + before < shallow ? std::numeric_limits<double>::infinity() : behind / std::max(before, shallow);
 }
 
-/// meet(its samples, the corner of the cube beyond)
-template <class Meet>
-void for_each_hull_triangle(const Tetrahedralization& t, Meet&& meet) {
-  for (TetrahedronIndex i{0}; i.value < t.tetrahedra.size(); ++i.value) {
-    std::array<VertexIndex, 4> v = t.tetrahedra[i];
-    std::stable_partition(v.begin(), v.end(), [&](VertexIndex a) { return !t.is_corner(a); });
-    if (!t.is_corner(v[2]) && t.is_corner(v[3])) meet({t.sample(v[0]), t.sample(v[1]), t.sample(v[2])}, v[3]);
-  }
-}
-
 /// Is a triangle of the hull one among neighbouring samples? Others hang between parts of the scene.
 bool is_borne_out(const Scene& scene, const std::array<SampleIndex, 3>& corner) {
   const Tetrahedralization& t = scene.tetrahedralization;
@@ -179,12 +170,11 @@ double share_on_hull(const Scene& scene, int axis) {
   const Tetrahedralization& t = scene.tetrahedralization;
   const Vec3 up = direction_of(static_cast<Axis>(2 * axis));
   std::array<double, 2> borne_out{}, all{};
-  for_each_hull_triangle(t, [&](const std::array<SampleIndex, 3>& corner, VertexIndex beyond) {
-    const Vec3& p = t.positions[corner[0]];
-    const Vec3 n = cross(t.positions[corner[1]] - p, t.positions[corner[2]] - p);
-    const bool outward = dot(n, t.positions[beyond] - p) > 0, upward = (dot(n, up) > 0) == outward;
-    all[upward] += std::fabs(dot(n, up));
-    if (is_borne_out(scene, corner)) borne_out[upward] += std::fabs(dot(n, up));
+  for_each_hull_triangle(t, [&](const HullTriangle& triangle) {
+    const double shadow = dot(triangle.outward, up);
+    const bool upward = shadow > 0;
+    all[upward] += std::fabs(shadow);
+    if (is_borne_out(scene, triangle.corner)) borne_out[upward] += std::fabs(shadow);
   });
   return std::min(borne_out[0] / all[0], borne_out[1] / all[1]);
 }
@@ -192,10 +182,9 @@ double share_on_hull(const Scene& scene, int axis) {
 /// The part of the hull's area that each sample on it stands for; 0 for all others.
 IndexedArray<SampleIndex, double> hull_area(const Tetrahedralization& t) {
   IndexedArray<SampleIndex, double> area(t.sample_count, 0);
-  for_each_hull_triangle(t, [&](const std::array<SampleIndex, 3>& corner, VertexIndex) {
-    const Vec3& p = t.positions[corner[0]];
-    const double whole = norm(cross(t.positions[corner[1]] - p, t.positions[corner[2]] - p)) / 2;
-    for (const SampleIndex s : corner) area[s] += whole / static_cast<double>(corner.size());
+  for_each_hull_triangle(t, [&](const HullTriangle& triangle) {
+    const auto& corner = triangle.corner;
+    for (const SampleIndex s : corner) area[s] += norm(triangle.outward) / 2 / static_cast<double>(corner.size());
   });
   return area;
 }
@@ -221,14 +210,13 @@ Surroundings reading_of_samples(const Scene& scene, const Threads& threads) {
 /// Does the hull run along walls? A room keeps them where its ceiling was not seen; from the rim of the ground to what
 /// stands on it the hull hangs like a curtain.
 bool has_walls(const Scene& scene, int axis) {
-  const Tetrahedralization& t = scene.tetrahedralization;
   const Vec3 up = direction_of(static_cast<Axis>(2 * axis));
   double walls = 0, all = 0;
-  for_each_hull_triangle(t, [&](const std::array<SampleIndex, 3>& corner, VertexIndex) {
-    const Vec3& p = t.positions[corner[0]];
-    const Vec3 n = cross(t.positions[corner[1]] - p, t.positions[corner[2]] - p);
-    all += norm(n);
-    if (std::fabs(dot(n, up)) < most_leaning * norm(n) && is_borne_out(scene, corner)) walls += norm(n);
+  for_each_hull_triangle(scene.tetrahedralization, [&](const HullTriangle& triangle) {
+    const double area = norm(triangle.outward);
+    all += area;
+    if (std::fabs(dot(triangle.outward, up)) < most_leaning * area && is_borne_out(scene, triangle.corner))
+      walls += area;
   });
   return walls > least_walls * all;
 }

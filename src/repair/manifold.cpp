@@ -135,7 +135,7 @@ ManifoldCounts make_manifold(const Tetrahedralization& t, const VertexStars& sta
                              const Checkpoint& checkpoint) {
   ManifoldCounts counts =
       PaperRepair(t, stars, poles, known, labels).run(unsound_stars(t, stars, labels.labels(), threads), checkpoint);
-  counts.overruled = overruled(known, labels.labels());
+  counts.overruled = overruled(t, known, labels.labels());
   return counts;
 }
 

@@ -70,7 +70,7 @@ Moves::Moves(const MoveScene& s, TetrahedronLabels& labels)
 ManifoldCounts Moves::make_manifold(const Checkpoint& checkpoint) {
   repair_.counts = {};
   repair_.run(unsound_stars(scene.t, scene.stars, all_.labels(), scene.threads), {}, ~std::uint64_t{0}, checkpoint);
-  repair_.counts.overruled = overruled(scene.energy.known, all_.labels());
+  repair_.counts.overruled = overruled(scene.t, scene.energy.known, all_.labels());
   return repair_.counts;
 }
 

@@ -59,10 +59,10 @@ std::vector<std::uint32_t> unsound_stars(const Tetrahedralization& t, const Vert
   return std::move(rows.item);
 }
 
-std::uint64_t overruled(const Labels& known, const Labels& labels) {
+std::uint64_t overruled(const Tetrahedralization& t, const Labels& known, const Labels& labels) {
   std::uint64_t count = 0;
-  for (std::size_t i = 0; i < known.size(); ++i)
-    count += known.raw()[i] != Label::unlabelled && known.raw()[i] != labels.raw()[i];
+  for (TetrahedronIndex i{0}; i.value < known.size(); ++i.value)
+    count += known[i] != Label::unlabelled && known[i] != labels[i] && !t.touches_cube(i);
   return count;
 }
 

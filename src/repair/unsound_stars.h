@@ -38,8 +38,8 @@ std::vector<std::uint32_t> unsound_stars(const Tetrahedralization& tetrahedraliz
 /// star.
 constexpr double last_resort = 1e6;
 
-/// How many labels are not what is known.
-std::uint64_t overruled(const Labels& known, const Labels& labels);
+/// How many labels are not what is known. Not counted are those at the cube, which nobody named.
+std::uint64_t overruled(const Tetrahedralization& t, const Labels& known, const Labels& labels);
 
 /// The first neighbour of the star's sample at whose edge more than two surface triangles meet; several strands of
 /// inside tetrahedra lie around that edge. Invalid if there is none.
