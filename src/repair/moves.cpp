@@ -15,8 +15,16 @@ namespace {
 // the samples) to 2 (not at all): less than the ties of the three samples of a triangle can say for the space over it,
 // 3 × 0.1 e⁴ (settle/data_term.h). On clean scans nineteen of twenty cost less (docs/decisions/0027).
 constexpr double sample_price = 13;
-// Of the samples on the surface: as many passed by are noise or outliers, no one misses them.
+// Of the samples on the surface: as many that are not lonely and passed by are noise, no one misses any.
 constexpr double most_passed = 0.04;
+// Lonely are samples whose third nearest one is so many spacings away: 3 % of samples at random places on a surface.
+constexpr double lonely_from = 1.5;
+// Lonely samples may be strays where more of them are passed by than not, and are where three quarters are: of clean
+// meshes a twentieth, of strays around bodies seven to nine tenths.
+constexpr double strays_from = 0.5, strays_at = 0.75;
+// So many samples for each stray that is passed by, near the surface or another stray, do not look lonely: 0.07 to 0.17
+// around boxes, plates, rods and cups.
+constexpr double strays_in_company = 0.1;
 // So few tetrahedra are no piece when a move leaves them over, and may turn with any move to mend what it breaks; with
 // more than twice its own beside it is no small change.
 constexpr std::uint64_t few_tetrahedra = 64;
@@ -26,36 +34,57 @@ bool is_passed(const MoveScene& scene, const Labels& labels, SampleIndex s) {
   return std::all_of(star.begin(), star.end(), [&](TetrahedronIndex i) { return labels[i] == labels[star.front()]; });
 }
 
-/// What it costs to pass each sample by: nothing where noise exceeds the spacing, and the less the more samples of its
-/// kind, lonely ones or others, are passed by: outliers or noise explain that.
+bool is_lonely(const MoveScene& scene, SampleIndex s) {
+  if (scene.model.isolated[s] > 0) return true;
+  const auto around = nearest_samples(scene, s);
+  double spacing = 0;
+  for (const NearSample& near : around)
+    if (near.sample.valid())
+      spacing += static_cast<double>(scene.model.spacing[near.sample]) / static_cast<double>(around.size());
+  // Its own is as wide as what it stands off from.
+  return around.back().distance > lonely_from * std::min(spacing, static_cast<double>(scene.model.spacing[s]));
+}
+
+/// What it costs to pass each sample by: nothing where noise exceeds the spacing, and the less the more noise or strays
+/// explain that samples of its kind, lonely ones or others, are passed by.
 std::vector<float> prices(const MoveScene& scene, const Labels& labels) {
   const std::size_t n = scene.t.sample_count;
   std::vector<std::uint8_t> lonely(n), passed(n);
   for_each_index(scene.threads, n, [&](std::size_t at) {
     const SampleIndex s{static_cast<std::uint32_t>(at)};
-    lonely[at] = scene.model.isolated[s] > 0 || nearest_sample(scene, s) > static_cast<double>(scene.model.spacing[s]);
+    lonely[at] = is_lonely(scene, s);
     passed[at] = is_passed(scene, labels, s);
   });
-  std::array<double, 2> off{};
-  double on = 0;
-  for (std::size_t at = 0; at < n; ++at) (passed[at] ? off[lonely[at]] : on) += 1;
+  std::array<double, 2> off{}, on{};
+  for (std::size_t at = 0; at < n; ++at) (passed[at] ? off : on)[lonely[at]] += 1;
+  const double share = off[1] > 0 ? off[1] / (off[1] + on[1]) : 0;
+  const double strays = std::clamp((share - strays_from) / (strays_at - strays_from), 0.0, 1.0);
+  const double noise = off[0] / (most_passed * (on[0] + on[1]));
+  const double in_company = off[0] > 0 ? strays * strays_in_company * off[1] / off[0] : 0;
+  const std::array<double, 2> explained{std::max(noise, in_company), std::max(noise, strays)};
   std::vector<float> price(n);
   for (std::size_t at = 0; at < n; ++at) {
     if (scene.model.is_noisy(SampleIndex{static_cast<std::uint32_t>(at)})) continue;
-    const double explained = off[lonely[at]] / (most_passed * on);
-    price[at] = static_cast<float>(explained < 1 ? sample_price * (1 - explained) : 0);
+    price[at] = static_cast<float>(sample_price * std::max(0.0, 1 - explained[lonely[at]]));
   }
   return price;
 }
 
 } // namespace
 
-double nearest_sample(const MoveScene& scene, SampleIndex s) {
-  double nearest = std::numeric_limits<double>::infinity();
+std::array<NearSample, 3> nearest_samples(const MoveScene& scene, SampleIndex s) {
+  std::array<NearSample, 3> nearest;
   for (const TetrahedronIndex i : scene.stars[s])
-    for (const VertexIndex v : scene.t.tetrahedra[i])
-      if (v != s) nearest = std::min(nearest, squared_norm(scene.t.positions[v] - scene.t.positions[s]));
-  return std::sqrt(nearest);
+    for (const VertexIndex v : scene.t.tetrahedra[i]) {
+      if (v == s || scene.t.is_corner(v)) continue;
+      NearSample next{squared_norm(scene.t.positions[v] - scene.t.positions[s]), scene.t.sample(v)};
+      for (NearSample& near : nearest) {
+        if (near.sample == next.sample) break;
+        if (next.distance < near.distance) std::swap(near, next);
+      }
+    }
+  for (NearSample& near : nearest) near.distance = std::sqrt(near.distance);
+  return nearest;
 }
 
 Moves::Moves(const MoveScene& s, TetrahedronLabels& labels)

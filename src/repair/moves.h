@@ -3,6 +3,8 @@
 /// The engine of all repairs: tetrahedra turn where that makes the surface better.
 #pragma once
 
+#include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -23,8 +25,12 @@ struct MoveScene {
   const SampleModel& model;
   const Threads& threads;
 };
-/// How far the nearest sample around is.
-double nearest_sample(const MoveScene& scene, SampleIndex s);
+struct NearSample {
+  double distance = std::numeric_limits<double>::infinity();
+  SampleIndex sample; ///< invalid: there are not so many
+};
+/// Of those that share a tetrahedron with a sample, the three nearest, nearest first.
+std::array<NearSample, 3> nearest_samples(const MoveScene& scene, SampleIndex s);
 
 /// One rule says which moves are made (docs/decisions/0027): those that leave a manifold and decrease
 ///   J = E + u · samples passed by + lengths of long triangles + g · (pieces + handles).

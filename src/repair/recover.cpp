@@ -11,8 +11,9 @@
 namespace eigencrust {
 namespace {
 
-// An outlier is lonely: its nearest sample is farther away than the surface's samples are from each other.
-constexpr double max_loneliness = 1.5;
+// A stray is lonely: its nearest sample is farther away than the surface's samples are from each other, or, where two
+// are together, its third nearest. In spacings.
+constexpr double farthest_nearest = 1.5, farthest_third = 2;
 
 /// Square of its longest edge.
 double squared_length(const Tetrahedralization& t, TetrahedronIndex i) {
@@ -27,7 +28,7 @@ double squared_length(const Tetrahedralization& t, TetrahedronIndex i) {
 /// Turning it puts s on the surface and neither opens nor joins anything.
 TetrahedronIndex best_tetrahedron(const Moves& moves, SampleIndex s) {
   const MoveScene& scene = moves.scene;
-  const double nearest = nearest_sample(scene, s);
+  const auto around = nearest_samples(scene, s);
   double least = 0;
   TetrahedronIndex best;
   for (const TetrahedronIndex i : scene.stars[s]) {
@@ -42,7 +43,8 @@ TetrahedronIndex best_tetrahedron(const Moves& moves, SampleIndex s) {
       if (!scene.t.is_corner(v[j]))
         spacing += static_cast<double>(scene.model.spacing[scene.t.sample(v[j])]) /
                    static_cast<double>(face_opposite[k].size());
-    if (nearest > max_loneliness * spacing) continue;
+    if (around.front().distance > farthest_nearest * spacing || around.back().distance > farthest_third * spacing)
+      continue;
     // What is longer than samples bear out leads to another part: tips beside each other were strung together.
     if (squared_length(scene.t, i) > longest_edge * longest_edge * spacing * spacing) continue;
     const double cost = moves.labels().cost_of(i);

@@ -98,6 +98,31 @@ Points hollow_ball(double wall, double noise, std::uint64_t seed) {
   return clouds::jittered(std::move(points), noise, seed);
 }
 
+TEST(OrdinaryParts, NothingReachesForStraysOffFlatFaces) {
+  // Pairs of strays, too, which are near each other and not near the face.
+  constexpr unsigned side = 40;
+  for (const double share : {0.01, 0.05, 0.2}) {
+    Points points = clouds::jittered(clouds::cube_surface(side), 0.3, 5);
+    const std::size_t on_faces = points.size();
+    for (Vec3& p : points) // on the faces again
+      for (double* x : {&p.x, &p.y, &p.z})
+        if (*x < 0.4 || *x > side - 0.4) *x = *x < 0.4 ? 0 : side;
+    const auto strays = static_cast<std::size_t>(share * static_cast<double>(on_faces));
+    for (const Vec3& p : clouds::random_box(strays, 8, 0.65 * side)) points.push_back(p + 0.5 * side * Vec3{1, 1, 1});
+    const Result result = reconstruct(clouds::cloud_of(points));
+    EXPECT_EQ(result.report.mesh.genus, 0);
+    std::size_t spikes = 0, kept = 0;
+    for (const Vec3& p : result.mesh.vertices) {
+      const Vec3 beyond{std::fabs(p.x - side / 2.0), std::fabs(p.y - side / 2.0), std::fabs(p.z - side / 2.0)};
+      const double off = std::max({beyond.x, beyond.y, beyond.z}) - side / 2.0;
+      spikes += std::fabs(off) > 1.5;
+      kept += off == 0;
+    }
+    EXPECT_LE(spikes, 1u) << share;
+    EXPECT_GT(static_cast<double>(kept), 0.999 * static_cast<double>(on_faces)) << share;
+  }
+}
+
 TEST(OrdinaryParts, ThinWallsAreNotFilled) {
   for (const double wall_in_spacings : {1.5, 1.8, 3.0})
     for (const double noise : {0.0, 0.002}) {

@@ -28,6 +28,27 @@ std::vector<TetrahedronIndex> some_open(const Moves& moves, std::size_t count, s
   return some;
 }
 
+TEST(Moves, NearestSamplesAreThoseOfTheStar) {
+  MoveStage stage = random_stage(60, 0.5, 4);
+  const Tetrahedralization& t = stage.p.t;
+  Moves moves({t, stage.p.stars, stage.energy, stage.model, stage.threads}, stage.labels);
+  for (SampleIndex s{0}; s.value < t.sample_count; ++s.value) {
+    std::vector<double> distances;
+    for (SampleIndex other{0}; other.value < t.sample_count; ++other.value) {
+      const auto star = stage.p.stars[s];
+      const bool shares = std::any_of(star.begin(), star.end(), [&](TetrahedronIndex i) {
+        return std::count(t.tetrahedra[i].begin(), t.tetrahedra[i].end(), VertexIndex(other)) > 0;
+      });
+      if (shares && other != s) distances.push_back(distance(t.positions[s], t.positions[other]));
+    }
+    std::sort(distances.begin(), distances.end());
+    distances.resize(3, std::numeric_limits<double>::infinity());
+    const auto nearest = nearest_samples(moves.scene, s);
+    for (std::size_t k = 0; k < nearest.size(); ++k) EXPECT_EQ(nearest[k].distance, distances[k]);
+    EXPECT_EQ(distance(t.positions[s], t.positions[nearest[0].sample]), distances[0]);
+  }
+}
+
 TEST(PricedLabels, CostIsWhatChangesInTheEnergyAndThePrices) {
   MoveStage stage = random_stage(120, 0.5, 3);
   std::vector<float> price(stage.p.t.sample_count, 2.5f);
