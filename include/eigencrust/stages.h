@@ -61,10 +61,12 @@ Poles find_poles(const Tetrahedralization& tetrahedralization, const VertexStars
 /// §3.1: what is known beforehand. Tetrahedra at the cube are outside (with a façade: those at its front;
 /// those whose corners are all at the back are inside; around rooms all are inside), as are those that hold the
 /// user's points.
+/// \param solid tetrahedra at the cube that are inside all the same
 /// \throws Error{usage} when one tetrahedron is named both, or an inside point lies at or beyond the cube
 Labels known_labels(const Tetrahedralization& tetrahedralization, const VertexStars& stars,
                     std::span<const Vec3> outside_points, std::span<const Vec3> inside_points,
-                    const Surroundings& surroundings, const Threads& threads);
+                    const Surroundings& surroundings, const Threads& threads,
+                    std::span<const TetrahedronIndex> solid = {});
 
 /// What the scanner looked along when it saw a sample.
 struct SightLine {

@@ -13,8 +13,8 @@ namespace {
 Labels named_labels(const Scene& scene, const Surroundings& surroundings,
                     const std::vector<TetrahedronIndex>& beyond_walls, const Options& options, const Threads& threads) {
   const Tetrahedralization& t = scene.tetrahedralization;
-  Labels labels = known_labels(t, scene.stars, options.outside_points, options.inside_points, surroundings, threads);
-  for (const TetrahedronIndex i : beyond_walls) labels[i] = Label::inside;
+  Labels labels =
+      known_labels(t, scene.stars, options.outside_points, options.inside_points, surroundings, threads, beyond_walls);
   name_poles(t, scene.poles, options.outside_points, options.inside_points, threads, labels);
   return labels;
 }
@@ -45,14 +45,14 @@ LinesOfSight follow_lines(const PointCloud& cloud, const Scene& scene, const Lab
 /// Of a façade without sensors: what its samples hide, and what lies beyond its walls.
 void look_along(const Scene& scene, const Options& options, const Threads& threads, KnownBeforehand& known) {
   const SampleLengths depth = crossing_depths(scene.measures.model, options);
-  const Axis front = known.surroundings.front;
-  HiddenCounts hidden = count_hidden(scene, direction_of(front), depth, known.named, threads);
+  const Vec3 front = direction_of(known.surroundings.front);
+  const Labels at_cube =
+      known_labels(scene.tetrahedralization, scene.stars, {}, {}, known.surroundings, threads); // whatever is named
+  HiddenCounts hidden = count_hidden(scene, front, depth, at_cube, threads);
   const bool has_paper_weights = options.weights == Weights::paper;
-  if (!has_paper_weights) {
-    known.beyond_walls = beyond_walls(scene, direction_of(front), hidden, known.named);
-    for (const TetrahedronIndex i : known.beyond_walls) known.named[i] = known.labels[i] = Label::inside;
-  }
-  if (!has_paper_weights && is_seen_along(scene, front, threads))
+  if (!has_paper_weights) known.beyond_walls = beyond_walls(scene, front, hidden, at_cube);
+  known.labels = known.named = named_labels(scene, known.surroundings, known.beyond_walls, options, threads);
+  if (!has_paper_weights && is_seen_along(scene, known.surroundings.front, threads))
     label_hidden(hidden, known.labels);
   else // no sample is known to have been seen along the axis
     for (std::int16_t& count : hidden.raw()) count = std::max<std::int16_t>(count, 0);
@@ -63,9 +63,10 @@ KnownBeforehand what_is_known(const PointCloud& cloud, const Scene& scene, const
                               const Threads& threads) {
   KnownBeforehand known;
   known.surroundings = surroundings_of(cloud, scene, options, threads);
-  known.labels = known.named = named_labels(scene, known.surroundings, {}, options, threads);
   if (known.surroundings.kind == SceneKind::facade && cloud.sensor_of.empty())
     look_along(scene, options, threads, known);
+  else
+    known.labels = known.named = named_labels(scene, known.surroundings, {}, options, threads);
   return known;
 }
 

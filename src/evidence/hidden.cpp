@@ -14,6 +14,7 @@ namespace {
 // What a sample was seen through is free, whatever else is hidden there: a line along the axis may slip between the
 // samples of a sheet.
 constexpr std::int32_t worth_of_sight = 2;
+
 /// How many lines go through each tetrahedron. Whole numbers: any order gives the same.
 struct Tallies {
   explicit Tallies(std::size_t n) : hidden(n), free(n) {}

@@ -77,11 +77,13 @@ class NamedPoints {
 } // namespace
 
 Labels known_labels(const Tetrahedralization& t, const VertexStars& stars, std::span<const Vec3> outside_points,
-                    std::span<const Vec3> inside_points, const Surroundings& surroundings, const Threads& threads) {
+                    std::span<const Vec3> inside_points, const Surroundings& surroundings, const Threads& threads,
+                    std::span<const TetrahedronIndex> solid) {
   Labels labels(t.tetrahedra.size());
   for_each_index(threads, t.tetrahedra.size(), [&](std::size_t i) {
     labels.raw()[i] = label_at_cube(t, TetrahedronIndex{static_cast<std::uint32_t>(i)}, surroundings);
   });
+  for (const TetrahedronIndex i : solid) labels[i] = Label::inside;
   for (const Vec3& p : outside_points)
     for (const TetrahedronIndex i : tetrahedra_at(t, stars, p - t.origin)) {
       if (surroundings.kind == SceneKind::facade && labels[i] == Label::inside)

@@ -29,8 +29,7 @@ constexpr double far_before = 40;
 /// A hull triangle along the axis, and what the samples at its corners say.
 struct UprightTriangle {
   HullTriangle hull;
-  std::uint32_t walls = 0; ///< how many of them are of a wall
-  double free = 0;         ///< the balance of those before which there is free space and those before which not
+  double free = 0; ///< of those that are of a wall: before how many there is free space, less the others
 };
 
 class Walls {
@@ -129,10 +128,7 @@ std::vector<TetrahedronIndex> beyond_walls(const Scene& scene, const Vec3& front
   std::vector<double> vote(upright.size(), 0);
   for (std::uint32_t k = 0; k < upright.size(); ++k) {
     for (const SampleIndex s : upright[k].hull.corner)
-      if (const auto free = walls.free_before(s, upright[k].hull.outward)) {
-        ++upright[k].walls;
-        upright[k].free += *free > 0 ? 1 : -1;
-      }
+      if (const auto free = walls.free_before(s, upright[k].hull.outward)) upright[k].free += *free > 0 ? 1 : -1;
     vote[sides.find(k)] += norm(upright[k].hull.outward) * upright[k].free;
   }
   std::vector<TetrahedronIndex> beyond;

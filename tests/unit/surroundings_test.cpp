@@ -281,6 +281,21 @@ TEST(Walls, AtTheRimOfAStreetAreSolidBehind) {
   for (const std::string& warning : result.report.warnings) EXPECT_EQ(warning.find("named"), std::string::npos);
 }
 
+TEST(Walls, WhatLiesBehindThemMayBeNamedSolidOnly) {
+  Options options;
+  options.inside_points = {{40.3, 44, 12}};
+  EXPECT_EQ(reconstruct(clouds::cloud_of(street()), options).report.mesh.genus, 0);
+  options.outside_points = options.inside_points;
+  options.inside_points.clear();
+  try {
+    reconstruct(clouds::cloud_of(street()), options);
+    ADD_FAILURE() << "a point in the solid passed for one outside";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_NE(error.cause().find("behind the facade"), std::string::npos);
+  }
+}
+
 TEST(Walls, OfAShedAtTheRimAreNotSolidBehind) {
   const auto beyond = [](const Points& points) {
     const Scene scene = scene_of(points);
