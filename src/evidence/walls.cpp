@@ -72,7 +72,8 @@ class Walls {
 std::vector<UprightTriangle> upright_triangles(const Tetrahedralization& t, const Vec3& front) {
   std::vector<UprightTriangle> upright;
   for_each_hull_triangle(t, [&](const HullTriangle& hull) {
-    if (std::fabs(dot(hull.outward, front)) <= most_leaning * norm(hull.outward)) upright.push_back({hull});
+    // A triangle without area has no direction; it would join sides that are not one.
+    if (std::fabs(dot(hull.outward, front)) < most_leaning * norm(hull.outward)) upright.push_back({hull});
   });
   return upright;
 }
