@@ -25,7 +25,7 @@ struct StageShare {
   std::string_view name;
   double share;
 };
-constexpr std::array<StageShare, 29> shares{{{"reading", 3},
+constexpr std::array<StageShare, 30> shares{{{"reading", 3},
                                              {"samples", 4},
                                              {"sample_model", 8},
                                              {"delaunay", 24},
@@ -41,6 +41,7 @@ constexpr std::array<StageShare, 29> shares{{{"reading", 3},
                                              {"partition_tetrahedra", 1},
                                              {"energy", 8},
                                              {"minimum_cut", 8},
+                                             {"overlaps", 2},
                                              {"manifold", 4},
                                              {"handles", 4},
                                              {"recover", 1},

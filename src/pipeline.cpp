@@ -30,11 +30,12 @@ void reconstruct_spectral(const PointCloud& cloud, const Context& context, Resul
   // §3.4: all tetrahedra, by the least energy
   auto settled = settle(scene, evidence, poles, context);
   EIGENCRUST_SOUND(settled, scene, context.options);
+  const auto overlaps = std::move(settled.overlaps);
   // §3.5: a manifold
   auto labels = repair(scene, evidence, std::move(settled), context);
   EIGENCRUST_SOUND(labels, scene, context.options);
   // §3: the faces between inside and outside
-  auto surface = make_surface(cloud, scene, evidence, labels, context);
+  auto surface = make_surface(cloud, scene, evidence, labels, overlaps, context);
   EIGENCRUST_SOUND(surface, scene, labels, context.options);
   // Which rows lie on it, and which way they look
   auto points = point_results(scene, surface, context);

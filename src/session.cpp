@@ -116,9 +116,10 @@ Result Session::label(std::span<const Vec3> outside_points, std::span<const Vec3
   EIGENCRUST_SOUND(poles, scene, evidence);
   auto settled = settle(scene, evidence, poles, context);
   EIGENCRUST_SOUND(settled, scene, options);
+  const auto overlaps = std::move(settled.overlaps);
   auto labels = repair(scene, evidence, std::move(settled), context);
   EIGENCRUST_SOUND(labels, scene, options);
-  auto surface = make_surface(cloud, scene, evidence, labels, context);
+  auto surface = make_surface(cloud, scene, evidence, labels, overlaps, context);
   EIGENCRUST_SOUND(surface, scene, labels, options);
   auto points = point_results(scene, surface, context);
   result.mesh = finish(std::move(surface), cloud, scene, context);

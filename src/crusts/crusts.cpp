@@ -11,6 +11,7 @@
 #include "crusts/robust_cocone.h"
 #include "crusts/tight_cocone.h"
 #include "poles/solve.h"
+#include "settle/settle.h"
 #include "surface/surface.h"
 #include "tetrahedra/scene.h"
 
@@ -31,7 +32,7 @@ void reconstruct_tight_cocone(const PointCloud& cloud, const Context& context, R
   const Evidence evidence = gather_evidence(cloud, scene, context);
   Labels labels = context.run.stage("tight_cocone", [&] { return tight_cocone(scene, context.threads); });
   const IndexedArray<TetrahedronIndex, float> sure(labels.size(), 1.0f);
-  Surface surface = make_surface(cloud, scene, evidence, {labels, sure}, context);
+  Surface surface = make_surface(cloud, scene, evidence, {labels, sure}, {}, context);
   result.mesh = finish(std::move(surface), cloud, scene, context);
   check(result.mesh, cloud, scene, {}, context);
   result.tetrahedralization = std::move(scene.tetrahedralization);
@@ -56,11 +57,19 @@ PointCloud outer_boundary(const PointCloud& cloud, const Context& context) {
   return boundary;
 }
 
+/// Of the first partition; where parts overlap inside, as all tetrahedra together tell.
+Labels spectral_labels(const Scene& scene, const Evidence& evidence, const Context& context) {
+  PoleLabels poles = label_poles(scene, evidence, context);
+  for (const TetrahedronIndex i : settle(scene, evidence, poles, context).overlaps.tetrahedra)
+    poles.labels[i] = Label::inside;
+  return std::move(poles.labels);
+}
+
 /// Sides of the poles: known beforehand, with the spectral labels from the first partition, the rest by the queue.
 IndexedArray<PoleIndex, Label> sides_of_poles(const Scene& scene, const Evidence& evidence, const PowerDiagram& diagram,
                                               const Context& context) {
   const Labels labels = context.options.method == Method::spectral_powercrust
-                            ? label_poles(scene, evidence, context).labels
+                            ? spectral_labels(scene, evidence, context)
                             : evidence.labels;
   IndexedArray<PoleIndex, Label> known(scene.poles.tetrahedron.size());
   for (PoleIndex p{0}; p.value < known.size(); ++p.value) known[p] = labels[scene.poles.tetrahedron[p]];

@@ -12,6 +12,7 @@
 #include "report/run.h"
 #include "samples/measures.h"
 #include "settle/minimum_energy.h"
+#include "settle/overlaps.h"
 #include "surface/surface.h"
 #include "surface/trim.h"
 #include "surface/turned_over.h"
@@ -156,6 +157,15 @@ void describe(const PoleLabels& labels, Run& run) {
 void describe(const MinimumLabels& labels, Run& run) {
   run.count("undecided", static_cast<double>(labels.undecided));
   run.count("energy", labels.energy);
+}
+
+void describe(const Overlaps& overlaps, Run& run) {
+  run.count("chambers", overlaps.chambers);
+  if (overlaps.chambers == 0) return;
+  const bool is_one = overlaps.chambers == 1;
+  run.warn(std::to_string(overlaps.chambers) + (is_one ? " chamber" : " chambers") + " where parts overlap " +
+           (is_one ? "was" : "were") +
+           " taken to be solid; where one is hollow name a point in it with --outside-point");
 }
 
 void describe(const ManifoldCounts& counts, Run& run) {

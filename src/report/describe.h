@@ -22,6 +22,7 @@ struct LinesOfSight;
 struct Contradictions;
 struct KnownBeforehand;
 struct MinimumLabels;
+struct Overlaps;
 struct PointResults;
 struct UncrossCounts;
 
@@ -34,6 +35,7 @@ void describe(const LinesOfSight& sight, Run& run);
 void describe(const Partition& partition, Run& run);
 void describe(const PoleLabels& labels, Run& run);
 void describe(const MinimumLabels& labels, Run& run);
+void describe(const Overlaps& overlaps, Run& run);
 void describe(const ManifoldCounts& counts, Run& run);
 void describe(const HandleCounts& counts, Run& run);
 void describe(const RecoveryCounts& counts, Run& run);

@@ -5,6 +5,7 @@
 
 #include "evidence/evidence.h"
 #include "settle/minimum_energy.h"
+#include "settle/overlaps.h"
 
 namespace eigencrust {
 
@@ -13,9 +14,11 @@ namespace eigencrust {
 struct Settled {
   TetrahedronLabels labels;
   Energy energy;
+  Overlaps overlaps = {}; ///< inside, though the poles were not
 };
 
-/// The stages energy and minimum_cut; with the paper's second stages those of the second graph before.
+/// The stages energy, minimum_cut and overlaps; with the paper's second stages those of the second graph instead of the
+/// latter two.
 Settled settle(const Scene& scene, const Evidence& evidence, const PoleLabels& poles, const Context& context);
 
 } // namespace eigencrust

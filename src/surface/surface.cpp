@@ -49,13 +49,17 @@ void require_samples_near(const Surface& surface, const Scene& scene, const Thre
                 "every piece, --noise off trusts every sample");
 }
 
-SamplesApart samples_apart(const Surface& surface, const Scene& scene, const Threads& threads) {
+SamplesApart samples_apart(const Surface& surface, const Scene& scene, const Overlaps& overlaps,
+                           const Threads& threads) {
   const Tetrahedralization& t = scene.tetrahedralization;
   const SampleModel& model = scene.measures.model;
   IndexedArray<VertexIndex, std::uint8_t> on_surface(t.positions.size(), 0);
   for (const SampleIndex s : surface.sample_of) on_surface[s] = 1;
+  IndexedArray<VertexIndex, std::uint8_t> in_overlap(t.positions.size(), 0);
+  for (const TetrahedronIndex i : overlaps.tetrahedra)
+    for (const VertexIndex v : t.tetrahedra[i]) in_overlap[v] = 1;
   const auto is_apart = [&](SampleIndex s) {
-    if (on_surface[s] || model.isolated[s] > 0 || model.is_noisy(s)) return false;
+    if (on_surface[s] || in_overlap[s] || model.isolated[s] > 0 || model.is_noisy(s)) return false;
     const auto star = scene.stars[s];
     return std::none_of(star.begin(), star.end(), [&](TetrahedronIndex i) {
       return std::any_of(t.tetrahedra[i].begin(), t.tetrahedra[i].end(), [&](VertexIndex n) {
@@ -108,7 +112,7 @@ std::vector<SightLine> rays_of(const PointCloud& cloud, const Scene& scene) {
 } // namespace
 
 Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence& evidence,
-                     const TetrahedronLabels& labels, const Context& context) {
+                     const TetrahedronLabels& labels, const Overlaps& overlaps, const Context& context) {
   const auto& [options, run, threads] = context;
   const Tetrahedralization& t = scene.tetrahedralization;
   const SampleModel& model = scene.measures.model;
@@ -123,7 +127,7 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   // Who asks for all pieces may want a scrap; crusts keep all without being asked.
   if (options.components.kind == KeepComponents::Kind::supported || options.method != Method::eigencrust)
     require_samples_near(surface, scene, threads);
-  describe(samples_apart(surface, scene, threads), run);
+  describe(samples_apart(surface, scene, overlaps, threads), run);
   const bool is_open = evidence.surroundings.kind == SceneKind::facade;
   const bool one_sided = is_open || evidence.one_sided.has_value();
   UnsupportedTriangles unsupported = run.stage("trim", [&] {
