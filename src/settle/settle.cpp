@@ -2,7 +2,6 @@
 #include "settle/settle.h"
 
 #include "report/snapshots.h"
-#include "settle/overlaps.h"
 
 namespace eigencrust {
 namespace {

@@ -16,8 +16,8 @@ constexpr double least_share_on_surface = 0.05;
 
 /// Samples that the surface leaves alone though neither noise nor loneliness nor overlapping parts explain it.
 struct SamplesApart {
-  std::uint64_t apart =
-      0; ///< neither lonely nor noisy nor at an overlap, and neither on the surface nor beside a neighbour that is
+  /// Neither lonely nor noisy nor at an overlap, and neither on the surface nor beside a neighbour that is.
+  std::uint64_t apart = 0;
   std::uint64_t in_company = 0; ///< of these: most of their neighbours are too, as in a part that was left out
   std::uint64_t all = 0;
 };
