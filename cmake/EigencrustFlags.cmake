@@ -3,6 +3,8 @@
 function(eigencrust_flags target)
   # Without fused multiply-add a result does not depend on which instructions the compiler picked.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
+  # Nobody puts functions of his own in the place of the library's, so that they may be inlined where they are called.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
   # The standard library checks each access to its containers.
   target_compile_definitions(${target} PRIVATE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
   # Warnings are for those who change the code, whose presets ask for it; they take time.

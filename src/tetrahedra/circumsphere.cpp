@@ -24,8 +24,9 @@ Vec3 circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double volume = dot(u, vw); // six times the signed volume
   // The rounding error of `volume` is a few ulp of |u||v||w|.
   // Negated, so that underflow and NaN also take the exact way.
-  if (!(std::fabs(volume) > half_the_digits * norm(u) * norm(v) * norm(w))) return exact_circumcentre(a, b, c, d);
-  const Vec3 numerator = squared_norm(u) * vw + (squared_norm(v) * wu + squared_norm(w) * uv);
+  const double uu = squared_norm(u), vv = squared_norm(v), ww = squared_norm(w);
+  if (!(volume * volume > half_the_digits * half_the_digits * uu * vv * ww)) return exact_circumcentre(a, b, c, d);
+  const Vec3 numerator = uu * vw + (vv * wu + ww * uv);
   return a + (1 / (2 * volume)) * numerator;
 }
 
