@@ -9,6 +9,7 @@
 #include "geometry/distinct_numbers.h"
 #include "numerics/weight_table.h"
 #include "parallel/compressed_rows.h"
+#include "parallel/prefetch.h"
 #include "poles/pole_weights.h"
 
 namespace eigencrust {
@@ -184,7 +185,9 @@ class RowAssembler {
     candidates_.clear();
     opposite_.clear();
     const auto add = [&](PoleIndex q) {
-      if (q.valid() && node_of_[q.value] != no_node && node_of_[q.value] != own) candidates_.add(q.value);
+      if (!q.valid() || node_of_[q.value] == no_node || node_of_[q.value] == own) return;
+      candidates_.add(q.value);
+      prefetch(poles_.sphere[q]);
     };
     for (const std::uint32_t s : samples_of_[p]) {
       const PolePair& pair = poles_.of_sample.raw()[s];

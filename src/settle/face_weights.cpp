@@ -57,7 +57,7 @@ std::array<std::int16_t, 4> cosines(const std::array<Vec3, 4>& p, const std::arr
 } // namespace
 
 FaceWeights::FaceWeights(const Tetrahedralization& t, SampleLengthsView isolated, const Threads& threads)
-    : t_(&t), cosine_(t.tetrahedra.size()) {
+    : cosine_(t.tetrahedra.size()) {
   const auto is_isolated = [&](VertexIndex v) {
     return !isolated.empty() && !t.is_corner(v) && isolated[t.sample(v)] > 0;
   };
@@ -67,15 +67,20 @@ FaceWeights::FaceWeights(const Tetrahedralization& t, SampleLengthsView isolated
     for (std::size_t k = 0; k < 4; ++k) of[k] = is_isolated(t.tetrahedra[i][k]);
     cosine_[i] = cosines(corners_of(t, i), of);
   });
+  for_each_index(threads, t.tetrahedra.size(), [&](std::size_t at) { // each face once, both its sides
+    const TetrahedronIndex i{static_cast<std::uint32_t>(at)};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const TetrahedronIndex n = t.neighbours[i][k];
+      if (!n.valid() || n > i) continue;
+      const auto& back = t.neighbours[n];
+      const auto j = static_cast<std::size_t>(std::find(back.begin(), back.end(), i) - back.begin());
+      cosine_[i][k] = cosine_[n][j] = std::min(cosine_[i][k], cosine_[n][j]);
+    }
+  });
 }
 
 float FaceWeights::operator()(TetrahedronIndex i, std::size_t k) const {
-  std::int16_t smaller = cosine_[i][k];
-  const TetrahedronIndex n = t_->neighbours[i][k];
-  if (n.valid())
-    for (std::size_t j = 0; j < 4; ++j)
-      if (t_->neighbours[n][j] == i) smaller = std::min(smaller, cosine_[n][j]);
-  return least + 1 - static_cast<float>(smaller) / static_cast<float>(steps);
+  return least + 1 - static_cast<float>(cosine_[i][k]) / static_cast<float>(steps);
 }
 
 } // namespace eigencrust

@@ -31,9 +31,8 @@ class FaceWeights {
   static constexpr float largest = 2 + cost_of_isolated + least; ///< where both centres lie right across the face
 
  private:
-  const Tetrahedralization* t_ = nullptr;
-  IndexedArray<TetrahedronIndex, std::array<std::int16_t, 4>>
-      cosine_; ///< towards each face, less what else it costs, in units of 1/steps
+  /// Of each face the smaller of the two cosines, less what else it costs, in units of 1/steps.
+  IndexedArray<TetrahedronIndex, std::array<std::int16_t, 4>> cosine_;
 };
 
 } // namespace eigencrust

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <queue>
 #include <tuple>
 #include <utility>
 
+#include "geometry/mesh_topology.h"
 #include "geometry/tetrahedron.h"
 
 namespace eigencrust {
@@ -43,60 +46,80 @@ double clearance(const Scene& scene, TetrahedronIndex i, std::size_t face) {
     unit = std::max(unit, static_cast<double>(std::max(model.spacing[s], model.noise[s])));
   }
   const Vec3 a = corner[1] - corner[0], b = corner[2] - corner[0];
-  const double twice_area = norm(cross(a, b));
-  if (!(twice_area > 0) || !(unit > 0)) return 0;
-  return norm(a) * norm(b) * norm(b - a) / (2 * twice_area * unit);
+  const double squared_twice_area = squared_norm(cross(a, b));
+  if (!(squared_twice_area > 0) || !(unit > 0)) return 0;
+  return std::sqrt(squared_norm(a) / squared_twice_area * squared_norm(b) * squared_norm(b - a)) / (2 * unit);
 }
 
 OutsideRegions::OutsideRegions(const Scene& scene, const Labels& labels, const Labels& known, const Threads& threads)
-    : scene_(scene), labels_(labels), passes_(labels.size()), region_(labels.size(), none) {
-  const Tetrahedralization& t = scene.tetrahedralization;
-  for_each_index(threads, labels.size(), [&](std::size_t at) {
-    const TetrahedronIndex i{static_cast<std::uint32_t>(at)};
-    if (labels[i] != Label::outside) return;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const TetrahedronIndex n = t.neighbours[i][k];
-      if (n.valid() && labels[n] == Label::outside && clearance(scene, i, k) >= passing_ball)
-        passes_[i] = static_cast<std::uint8_t>(passes_[i] | 1 << k);
-    }
+    : scene_(scene), labels_(labels), region_(labels.size(), none) {
+  const PassedFaces passes = passed_faces(threads);
+  DisjointSets sets(labels.size());
+  for_each(passes, [&](TetrahedronIndex i, TetrahedronIndex n, std::size_t) {
+    sets.unite(i.value, n.value);
+    region_[i] = region_[n] = 0;
   });
-  std::uint32_t count = 0;
+  // By region: how many tetrahedra, none where some are known to be outside.
+  std::vector<std::uint32_t> unknown(labels.size());
   for (TetrahedronIndex i{0}; i.value < labels.size(); ++i.value) {
-    if (passes_[i] == 0 || region_[i] != none) continue;
-    Walk walk = walk_from(i, count, known);
-    if (walk.is_known) {
+    if (region_[i] == none) continue;
+    std::uint32_t& count = unknown[region_[i] = sets.find(i.value)];
+    if (known[i] == Label::outside)
+      count = none;
+    else if (count != none)
       ++count;
-      continue;
-    }
-    std::vector<SampleIndex> samples = samples_of(t, walk.tetrahedra);
-    if (walk.widest >= room * passing_ball && samples.size() >= fewest_samples)
-      unknown_.push_back({count++, std::move(walk.tetrahedra), std::move(samples), walk.widest});
-    else
-      for (const TetrahedronIndex gap : walk.tetrahedra) region_[gap] = none, passes_[gap] = 0;
   }
+  list_unknown(passes, unknown);
 }
 
-/// What can be reached from there; the tetrahedra only of a region in which nothing is known.
-OutsideRegions::Walk OutsideRegions::walk_from(TetrahedronIndex start, std::uint32_t region, const Labels& known) {
-  const Tetrahedralization& t = scene_.tetrahedralization;
-  Walk walk;
-  std::vector<TetrahedronIndex> waiting{start};
-  region_[start] = region;
-  while (!waiting.empty()) {
-    const TetrahedronIndex i = waiting.back();
-    waiting.pop_back();
-    if (known[i] == Label::outside && !std::exchange(walk.is_known, true)) walk.tetrahedra.clear();
-    if (!walk.is_known) walk.tetrahedra.push_back(i);
+/// Of each tetrahedron those to neighbours with smaller numbers: bit k: a ball gets through face k.
+OutsideRegions::PassedFaces OutsideRegions::passed_faces(const Threads& threads) const {
+  PassedFaces passes(labels_.size());
+  for_each_index(threads, labels_.size(), [&](std::size_t at) {
+    const TetrahedronIndex i{static_cast<std::uint32_t>(at)};
+    if (labels_[i] != Label::outside) return;
     for (std::size_t k = 0; k < 4; ++k) {
-      if ((passes_[i] >> k & 1) == 0) continue;
-      if (!walk.is_known) walk.widest = std::max(walk.widest, clearance(scene_, i, k));
-      const TetrahedronIndex n = t.neighbours[i][k];
-      if (region_[n] != none) continue;
-      region_[n] = region;
-      waiting.push_back(n);
+      const TetrahedronIndex n = scene_.tetrahedralization.neighbours[i][k];
+      if (n.valid() && n < i && labels_[n] == Label::outside && clearance(scene_, i, k) >= passing_ball)
+        passes[i] = static_cast<std::uint8_t>(passes[i] | 1 << k);
     }
+  });
+  return passes;
+}
+
+template <class Visit>
+void OutsideRegions::for_each(const PassedFaces& passes, Visit&& visit) const {
+  for (TetrahedronIndex i{0}; i.value < passes.size(); ++i.value)
+    for (std::size_t k = 0; passes[i] >> k != 0; ++k)
+      if ((passes[i] >> k & 1) != 0) visit(i, scene_.tetrahedralization.neighbours[i][k], k);
+}
+
+/// What has no room is no region but a gap between samples.
+void OutsideRegions::list_unknown(const PassedFaces& passes, const std::vector<std::uint32_t>& tetrahedra) {
+  // With each tetrahedron a region gets one corner more at most.
+  const auto may_have_room = [&](std::uint32_t region) { return tetrahedra[region] + 3 >= fewest_samples; };
+  std::map<std::uint32_t, UnknownRegion> regions;
+  for (TetrahedronIndex i{0}; i.value < region_.size(); ++i.value) {
+    if (region_[i] == none || tetrahedra[region_[i]] == none) continue;
+    if (may_have_room(region_[i]))
+      regions[region_[i]].tetrahedra.push_back(i);
+    else
+      region_[i] = none;
   }
-  return walk;
+  if (regions.empty()) return;
+  for_each(passes, [&](TetrahedronIndex i, TetrahedronIndex, std::size_t k) {
+    if (region_[i] == none || tetrahedra[region_[i]] == none) return;
+    double& widest = regions[region_[i]].widest;
+    widest = std::max(widest, clearance(scene_, i, k));
+  });
+  for (auto& [number, region] : regions) {
+    region.number = number;
+    region.samples = samples_of(scene_.tetrahedralization, region.tetrahedra);
+    if (region.widest >= room * passing_ball && region.samples.size() >= fewest_samples)
+      unknown_.push_back(std::move(region));
+    else
+      for (const TetrahedronIndex gap : region.tetrahedra) region_[gap] = none;
+  }
 }
 
 void OutsideRegions::divide(std::span<const TetrahedronIndex> tetrahedra) {

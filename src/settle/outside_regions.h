@@ -42,16 +42,16 @@ class OutsideRegions {
   void divide(std::span<const TetrahedronIndex> tetrahedra);
 
  private:
-  struct Walk {
-    bool is_known = false;
-    double widest = 0;
-    std::vector<TetrahedronIndex> tetrahedra;
-  };
-  [[nodiscard]] Walk walk_from(TetrahedronIndex start, std::uint32_t region, const Labels& known);
+  using PassedFaces = IndexedArray<TetrahedronIndex, std::uint8_t>;
+  [[nodiscard]] PassedFaces passed_faces(const Threads& threads) const;
+  /// visit(tetrahedron, neighbour, face)
+  template <class Visit>
+  void for_each(const PassedFaces& passes, Visit&& visit) const;
+  /// \param tetrahedra how many, by region; none where it is known
+  void list_unknown(const PassedFaces& passes, const std::vector<std::uint32_t>& tetrahedra);
 
   const Scene& scene_;
   const Labels& labels_;
-  IndexedArray<TetrahedronIndex, std::uint8_t> passes_; ///< bit k: a ball gets through face k
   IndexedArray<TetrahedronIndex, std::uint32_t> region_;
   std::vector<UnknownRegion> unknown_;
 };
