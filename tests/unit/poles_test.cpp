@@ -134,6 +134,13 @@ TEST(Circumcentre, OfASliverIsExact) {
   EXPECT_NEAR(centre.x, 0, 1e-12);
   EXPECT_NEAR(centre.y, 0, 1e-12);
   EXPECT_NEAR(centre.z / (h / 2), 1, 1e-12);
+  // Also where products of lengths are more or less than double holds.
+  for (const double factor : {0x1p-320, 0x1p-250, 0x1p-230, 0x1p+230, 0x1p+320}) {
+    const Vec3 scaled = circumcentre({factor, 0, 0}, {0, factor, 0}, {-factor, 0, 0}, {0, -factor, factor * h});
+    EXPECT_NEAR(scaled.x / factor, 0, 1e-12) << factor;
+    EXPECT_NEAR(scaled.y / factor, 0, 1e-12) << factor;
+    EXPECT_NEAR(scaled.z / factor, h / 2, 1e-24) << factor;
+  }
 }
 
 } // namespace
