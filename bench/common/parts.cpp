@@ -396,6 +396,21 @@ Part darted(Part part, std::size_t count, std::uint64_t seed) {
   return part;
 }
 
+namespace {
+
+/// Every sample and every vertex of the truth goes to place(point).
+template <class Place>
+Part placed(Part part, Place&& place) {
+  for (Vec3& p : part.samples) p = place(p);
+  TriangleMesh mesh = *part.truth.mesh;
+  for (Vec3& p : mesh.vertices) p = place(p);
+  part.truth.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
+  part.truth.inside = nullptr;
+  return part;
+}
+
+} // namespace
+
 Part rotated(Part part, std::uint64_t seed) {
   // A random unit quaternion (Marsaglia): four normal deviates.
   const tools::CounterRandom random(seed, 0, 0);
@@ -407,20 +422,15 @@ Part rotated(Part part, std::uint64_t seed) {
   }
   for (double& x : q) x /= std::sqrt(length);
   const Vec3 v{q[1], q[2], q[3]};
-  const auto turn = [&](const Vec3& p) { return p + 2 * cross(v, cross(v, p) + q[0] * p); };
-  for (Vec3& p : part.samples) p = turn(p);
-  TriangleMesh mesh = *part.truth.mesh;
-  for (Vec3& p : mesh.vertices) p = turn(p);
-  part.truth.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
-  part.truth.inside = nullptr;
-  return part;
+  return placed(std::move(part), [&](const Vec3& p) { return p + 2 * cross(v, cross(v, p) + q[0] * p); });
+}
+
+Part laid_down(Part part) {
+  return placed(std::move(part), [](const Vec3& p) { return Vec3{p.z, p.x, p.y}; });
 }
 
 Part moved(Part part, const Vec3& shift) {
-  for (Vec3& p : part.samples) p = p + shift;
-  part.truth.mesh = std::make_shared<const TriangleMesh>(shapes::moved(*part.truth.mesh, shift));
-  part.truth.inside = nullptr;
-  return part;
+  return placed(std::move(part), [&](const Vec3& p) { return p + shift; });
 }
 
 Part beside(Part a, const Part& b) {
@@ -434,6 +444,14 @@ Part beside(Part a, const Part& b) {
              a.truth.genus + b.truth.genus,
              {},
              area};
+  return a;
+}
+
+Part through_each_other(Part a, const Part& b, double in_common) {
+  a = beside(std::move(a), b);
+  Truth truth;
+  truth.volume = a.truth.volume - in_common;
+  a.truth = std::move(truth);
   return a;
 }
 

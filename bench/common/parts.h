@@ -71,6 +71,13 @@ Part rotated(Part part, std::uint64_t seed);
 /// The parts as one; they must not touch.
 Part beside(Part a, const Part& b);
 
+/// Bodies that go through each other, each sampled all over as if the other was not there. Of the truth what is known
+/// is the volume; one piece, genus 0. \param in_common the volume that is of both
+Part through_each_other(Part a, const Part& b, double in_common);
+
+/// x for y, y for z and z for x: what stood along z lies along x.
+Part laid_down(Part part);
+
 /// Every coordinate of a sample and of the truth.
 Part moved(Part part, const Vec3& shift);
 

@@ -342,6 +342,58 @@ void add_filled_cases(std::vector<Case>& cases) {
   }
 }
 
+Part ball(double radius, double spacing) {
+  constexpr unsigned pieces = 60;
+  std::vector<ProfilePoint> profile;
+  for (unsigned i = 0; i <= pieces; ++i) {
+    const double u = pi * i / pieces;
+    profile.push_back({i % pieces == 0 ? 0 : radius * std::sin(u), -radius * std::cos(u)});
+  }
+  return turned_part(profile, spacing);
+}
+
+/// Along z, its middle at the origin.
+Part rod(double radius, double length, double spacing) {
+  const double end = 0.5 * length;
+  return turned_part(std::vector<ProfilePoint>{{0, -end}, {radius, -end}, {radius, end}, {0, end}}, spacing);
+}
+
+/// Bodies that were sampled one by one, as patches of the teapot in the paper's figure 10: solid where they overlap.
+void add_overlap_cases(std::vector<Case>& cases) {
+  struct Row {
+    const char *name, *description;
+    std::function<Part(std::uint64_t)> part;
+    double noise;
+  };
+  const auto balls = fixed([] {
+    // Two caps, each as high as half of what the distance leaves of the radii (Harris and Stocker 1998).
+    constexpr double radius = 10, apart = 11, cap = radius - apart / 2;
+    return through_each_other(ball(radius, 0.5), moved(ball(radius, 0.5), {apart, 0, 0}),
+                              2 * pi * cap * cap * (radius - cap / 3));
+  });
+  const auto rods = fixed([] {
+    constexpr double radius = 4; // Steinmetz' solid
+    return through_each_other(rod(radius, 30, 0.4), laid_down(rod(radius, 30, 0.4)), 16 * radius * radius * radius / 3);
+  });
+  const auto ball_on_rod = [](std::uint64_t seed) {
+    constexpr double radius = 10, hole = 4; // what a hole of the rod's radius takes from the ball
+    const double left = std::pow(radius * radius - hole * hole, 1.5);
+    const double in_common = 4 * pi / 3 * (radius * radius * radius - left);
+    return through_each_other(ball(radius, 0.4), rotated(rod(hole, 40, 0.4), seed), in_common);
+  };
+  for (const Row& row : {Row{"overlap-balls", "two balls that go through each other, each sampled all over", balls, 0},
+                         Row{"overlap-rods", "two rods across each other, each sampled all over", rods, 0},
+                         Row{"overlap-ball-rod", "a rod through a ball, each sampled all over", ball_on_rod, 0},
+                         Row{"overlap-rods-noise", "the rods with noise of 0.2 spacings", rods, 0.2}}) {
+    Case c = part_case(row.name, row.description, row.part, row.noise, 0);
+    c.requirements.insert(c.requirements.end(), {at_most("volume_error", 0.015), equals("warns_of_overlap", 1)});
+    c.measure_more = [](const Scene&, const Result& result, Sources&, Figures& figures) {
+      measure_warning(result, "warns_of_overlap", "overlap", figures);
+    };
+    cases.push_back(std::move(c));
+  }
+}
+
 void add_tiny_cases(std::vector<Case>& cases) {
   const TriangleMesh prism{{{0, 0, 0}, {1, 0, 0}, {0.5, 0.9, 0}, {0, 0, 1}, {1, 0, 1}, {0.5, 0.9, 1}},
                            {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}},
@@ -392,6 +444,7 @@ void add_field_cases(std::vector<Case>& cases) {
   add_smooth_cases(cases);
   add_noisy_cases(cases);
   add_filled_cases(cases);
+  add_overlap_cases(cases);
   add_tiny_cases(cases);
 }
 

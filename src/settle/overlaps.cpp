@@ -21,6 +21,9 @@ namespace {
 constexpr double solid_ball = 1.5, connecting_ball = 1;
 // Samples around an opening that the passing ball just does not get through, on both of its sides.
 constexpr double least_curve = 2 * 2 * std::numbers::pi * passing_ball;
+// What has more samples along the curve for each of its own is a crack, lies among strays, or is the pore between
+// beads.
+constexpr double most_curve = 1.25;
 // What lies around a sample: so many edges away.
 constexpr int edges_around = 3;
 // A chamber is so many times as wide as the ways out of it; the pores between touching beads are less.
@@ -66,8 +69,8 @@ class OverlapSearch {
     std::vector<SampleIndex> curve;
     std::copy_if(near.samples.begin(), near.samples.end(), std::back_inserter(curve),
                  [&](SampleIndex s) { return touches(s, chamber.number); });
-    // What is nothing but that curve is a crack, or lies among strays.
-    return static_cast<double>(curve.size()) >= least_curve && curve.size() < chamber.samples.size() &&
+    const auto on_curve = static_cast<double>(curve.size());
+    return on_curve >= least_curve && on_curve < most_curve * static_cast<double>(chamber.samples.size()) &&
            chamber.widest >= least_room * widest_gate(near.tetrahedra, chamber.number) && is_solid_parted(curve) &&
            is_borne_out(chamber);
   }

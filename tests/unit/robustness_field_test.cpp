@@ -237,6 +237,20 @@ TEST(FieldMeasures, AreaEdgesAndCleanRows) {
   EXPECT_LT(*wrong.find("clean_rows_kept"), 1);
 }
 
+TEST(FieldParts, GoThroughEachOther) {
+  const std::array<Block, 1> upright{Block{{0, 0, 0}, {2, 2, 8}}};
+  const Part part = block_part(upright, 1), lying = laid_down(part);
+  Box3 box;
+  for (const Vec3& p : lying.samples) box.add(p);
+  EXPECT_EQ(box.max, (Vec3{8, 2, 2}));
+  EXPECT_DOUBLE_EQ(lying.truth.volume, 32);
+  const Part both = through_each_other(part, moved(lying, {-3, 0, 3}), 8);
+  EXPECT_EQ(both.samples.size(), 2 * part.samples.size());
+  EXPECT_NEAR(both.truth.volume, 56, 1e-9);
+  EXPECT_EQ(both.truth.components, 1u);
+  EXPECT_EQ(both.truth.mesh, nullptr);
+}
+
 /// A case that fails in one way or another, and may say why.
 Case excused_case(std::vector<Vec3> points, std::string word) {
   Case c;
