@@ -17,8 +17,6 @@ namespace {
 constexpr std::size_t tetrahedra_per_point = 7;     // of points in space; of surfaces a little fewer
 constexpr std::uint32_t most_tetrahedra = 1u << 30; // four corners of each have numbers, and one number means none
 
-std::uint32_t corner_number(std::uint32_t tetrahedron, std::uint32_t corner) { return 4 * tetrahedron + corner; }
-
 Error fault(const char* what) {
   return {ErrorKind::guarantee, "delaunay", what, "report this as a fault of the program"};
 }
@@ -31,7 +29,7 @@ struct Side {
 };
 
 Side side(const std::array<std::uint32_t, 4>& tetrahedron, std::uint32_t corner, std::uint32_t number) {
-  Side result{{}, corner_number(number, corner)};
+  Side result{{}, IncrementalDelaunay::corner(number, corner)};
   for (std::size_t j = 0; j < 3; ++j) result.vertices[j] = tetrahedron[face_opposite[corner][j]];
   std::sort(result.vertices.begin(), result.vertices.end());
   return result;
@@ -97,8 +95,8 @@ void IncrementalDelaunay::join_corners() {
   for (std::size_t i = 1; i < sides.size(); ++i)
     if (sides[i - 1].vertices == sides[i].vertices) {
       const std::uint32_t a = sides[i - 1].corner, b = sides[i].corner;
-      tetrahedra_[a / 4].across[a % 4] = b;
-      tetrahedra_[b / 4].across[b % 4] = a;
+      tetrahedra_[tetrahedron_of(a)].across[place_of(a)] = b;
+      tetrahedra_[tetrahedron_of(b)].across[place_of(b)] = a;
     }
 }
 
@@ -111,7 +109,7 @@ std::uint32_t IncrementalDelaunay::insert(std::uint32_t vertex, std::uint32_t ne
 /// From tetrahedron to tetrahedron, always across a face that the point is beyond: in a Delaunay tetrahedralization
 /// this comes to an end (Edelsbrunner 1990).
 std::uint32_t IncrementalDelaunay::locate(const Vec3& p, std::uint32_t near) const {
-  std::uint32_t t = near, entry = 4;
+  std::uint32_t t = near, entry = no_index;
   while (true) {
     const std::array<const Vec3*, 4> corners = corners_of(t);
     const SeenFrom<4> seen(p, corners);
@@ -122,12 +120,12 @@ std::uint32_t IncrementalDelaunay::locate(const Vec3& p, std::uint32_t near) con
       return (sign != 0 ? sign : orientation(p, *corners[a], *corners[b], *corners[c])) < 0;
     };
     std::uint32_t k = 0;
-    while (k < 4 && (k == entry || !is_beyond(k))) ++k;
-    if (k == 4) break;
+    while (k < corners.size() && (k == entry || !is_beyond(k))) ++k;
+    if (k == corners.size()) break;
     const std::uint32_t across = tetrahedra_[t].across[k];
     if (across == no_index) throw fault("a sample is outside of the cube");
-    t = across / 4;
-    entry = across % 4;
+    t = tetrahedron_of(across);
+    entry = place_of(across);
   }
   for (const Vec3* corner : corners_of(t))
     if (*corner == p) throw fault("two samples are at the same place");
@@ -144,8 +142,8 @@ bool IncrementalDelaunay::goes(std::uint32_t t, const Vec3& p) {
   hole_.push_back(t);
   for (const std::uint32_t next : tetrahedra_[t].across)
     if (next != no_index) {
-      prefetch(tetrahedra_[next / 4]);
-      prefetch(asked_[next / 4]);
+      prefetch(tetrahedra_[tetrahedron_of(next)]);
+      prefetch(asked_[tetrahedron_of(next)]);
     }
   return true;
 }
@@ -159,12 +157,12 @@ void IncrementalDelaunay::dig(std::uint32_t vertex, std::uint32_t first) {
   for (std::size_t i = 0; i < hole_.size(); ++i) {
     const Tetrahedron t = tetrahedra_[hole_[i]];
     for (std::uint32_t k = 0; k < 4; ++k) {
-      if (t.across[k] != no_index && goes(t.across[k] / 4, p)) continue;
+      if (t.across[k] != no_index && goes(tetrahedron_of(t.across[k]), p)) continue;
       Face& face = faces_.emplace_back();
       face.joined.vertices = t.vertices;
       face.joined.vertices[k] = vertex;
       face.joined.across[k] = t.across[k];
-      face.corner = k;
+      face.point = k;
     }
   }
 }
@@ -177,10 +175,10 @@ std::uint32_t IncrementalDelaunay::fill(std::uint32_t vertex) {
   else
     join_many_faces();
   for (std::size_t i = 0; i < faces_.size(); ++i) {
-    const auto& [joined, corner] = faces_[i];
+    const auto& [joined, point] = faces_[i];
     tetrahedra_[numbers_[i]] = joined;
-    const std::uint32_t beyond = joined.across[corner];
-    if (beyond != no_index) tetrahedra_[beyond / 4].across[beyond % 4] = corner_number(numbers_[i], corner);
+    const std::uint32_t beyond = joined.across[point];
+    if (beyond != no_index) tetrahedra_[tetrahedron_of(beyond)].across[place_of(beyond)] = corner(numbers_[i], point);
   }
   at_[vertex] = numbers_.front();
   return numbers_.front();
@@ -206,15 +204,16 @@ void IncrementalDelaunay::take_numbers() {
     asked_.push_back(0);
   }
   if (tetrahedra_.size() >= most_tetrahedra)
-    throw Error(ErrorKind::memory, "delaunay", "more than a billion tetrahedra in one part", "split the cloud");
+    throw Error(ErrorKind::memory, "delaunay", "more than a billion tetrahedra in one part",
+                "use more threads (--threads), or split the cloud");
 }
 
 /// Of two faces at an edge, one has it in one direction and one in the other; what is joined to them are neighbours.
 void IncrementalDelaunay::join_faces() {
   ends_.resize(faces_.size());
   for (std::size_t i = 0; i < faces_.size(); ++i) {
-    const auto& [joined, corner] = faces_[i];
-    const auto& around = face_opposite[corner];
+    const auto& [joined, point] = faces_[i];
+    const auto& around = face_opposite[point];
     for (std::size_t j = 0; j < 3; ++j) {
       const std::uint32_t v = joined.vertices[around[j]];
       if (number_in_hole_[v] == 0) {
@@ -225,13 +224,11 @@ void IncrementalDelaunay::join_faces() {
       ends_[i][j] = number_in_hole_[v] - 1u;
     }
     for (std::size_t j = 0; j < 3; ++j)
-      edges_[ends_[i][(j + 1) % 3]][ends_[i][(j + 2) % 3]] =
-          corner_number(numbers_[i], static_cast<std::uint32_t>(around[j]));
+      edges_[ends_[i][(j + 1) % 3]][ends_[i][(j + 2) % 3]] = corner(numbers_[i], static_cast<std::uint32_t>(around[j]));
   }
   for (std::size_t i = 0; i < faces_.size(); ++i)
     for (std::size_t j = 0; j < 3; ++j)
-      faces_[i].joined.across[face_opposite[faces_[i].corner][j]] =
-          edges_[ends_[i][(j + 2) % 3]][ends_[i][(j + 1) % 3]];
+      faces_[i].joined.across[face_opposite[faces_[i].point][j]] = edges_[ends_[i][(j + 2) % 3]][ends_[i][(j + 1) % 3]];
   for (const std::uint32_t v : of_hole_) number_in_hole_[v] = 0;
   of_hole_.clear();
 }
@@ -240,15 +237,15 @@ void IncrementalDelaunay::join_faces() {
 void IncrementalDelaunay::join_many_faces() {
   std::vector<Side> sides;
   for (std::uint32_t i = 0; i < faces_.size(); ++i) {
-    const auto& [joined, corner] = faces_[i];
-    for (const std::size_t k : face_opposite[corner]) {
+    const auto& [joined, point] = faces_[i];
+    for (const std::size_t k : face_opposite[point]) {
       sides.push_back(side(joined.vertices, static_cast<std::uint32_t>(k), i));
       at_[joined.vertices[k]] = numbers_[i];
     }
   }
   std::sort(sides.begin(), sides.end());
   const auto meet = [&](std::uint32_t a, std::uint32_t b) {
-    faces_[a / 4].joined.across[a % 4] = corner_number(numbers_[b / 4], b % 4);
+    faces_[tetrahedron_of(a)].joined.across[place_of(a)] = corner(numbers_[tetrahedron_of(b)], place_of(b));
   };
   for (std::size_t i = 1; i < sides.size(); i += 2) {
     meet(sides[i - 1].corner, sides[i].corner);
@@ -264,7 +261,7 @@ std::vector<std::uint32_t> IncrementalDelaunay::around(std::uint32_t vertex) {
     const Tetrahedron& t = tetrahedra_[result[i]];
     for (std::size_t k = 0; k < 4; ++k) {
       if (t.vertices[k] == vertex || t.across[k] == no_index) continue;
-      const std::uint32_t other = t.across[k] / 4;
+      const std::uint32_t other = tetrahedron_of(t.across[k]);
       if (std::exchange(asked_[other], seen) != seen) result.push_back(other);
     }
   }

@@ -16,10 +16,17 @@ namespace eigencrust {
 /// not depend on the order of the points.
 class IncrementalDelaunay {
  public:
+  /// \name A corner of a tetrahedron, by one number
+  /// @{
+  static constexpr std::uint32_t corner(std::uint32_t tetrahedron, std::uint32_t k) { return 4 * tetrahedron + k; }
+  static constexpr std::uint32_t tetrahedron_of(std::uint32_t corner) { return corner / 4; }
+  static constexpr std::uint32_t place_of(std::uint32_t corner) { return corner % 4; }
+  /// @}
+
   struct alignas(32) Tetrahedron {           // two to a line of the processor's cache
     std::array<std::uint32_t, 4> vertices{}; ///< positively oriented; no_index where there is none any more
-    /// Opposite to each vertex: four times the number of the neighbour, and which of its corners is opposite. No_index
-    /// beyond the cube.
+    /// Opposite to each vertex: the corner of the neighbour that is opposite to the face between. No_index beyond the
+    /// cube.
     std::array<std::uint32_t, 4> across{};
   };
 
@@ -51,8 +58,8 @@ class IncrementalDelaunay {
  private:
   /// Of the hole that a new point makes.
   struct Face {
-    Tetrahedron joined;   ///< to the point; of its neighbours it knows the one beyond the hole
-    std::uint32_t corner; ///< of it, where the point is
+    Tetrahedron joined;  ///< to the point; of its neighbours it knows the one beyond the hole
+    std::uint32_t point; ///< which of its vertices that is
   };
 
   void join_corners();

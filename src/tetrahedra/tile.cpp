@@ -309,7 +309,7 @@ class TileMaker {
     for (std::size_t k = 0; k < 4; ++k) {
       vertices[k] = VertexIndex{v[order[k]]};
       const std::uint32_t across = t.across[order[k]];
-      neighbours[k] = TetrahedronIndex{across == no_index ? no_index : across / 4};
+      neighbours[k] = TetrahedronIndex{across == no_index ? no_index : IncrementalDelaunay::tetrahedron_of(across)};
     }
   }
 

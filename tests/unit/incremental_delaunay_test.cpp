@@ -74,12 +74,13 @@ void expect_sound(const IncrementalDelaunay& delaunay) {
     for (std::uint32_t k = 0; k < 4; ++k) {
       const std::uint32_t across = all[t].across[k];
       if (across == no_index) continue;
-      ASSERT_TRUE(delaunay.exists(across / 4));
-      ASSERT_EQ(all[across / 4].across[across % 4], 4 * t + k);
-      std::set<std::uint32_t> here(v.begin(), v.end()),
-          there(all[across / 4].vertices.begin(), all[across / 4].vertices.end());
+      const auto& other = all[IncrementalDelaunay::tetrahedron_of(across)];
+      const std::uint32_t back = IncrementalDelaunay::place_of(across);
+      ASSERT_NE(other.vertices[0], no_index);
+      ASSERT_EQ(other.across[back], IncrementalDelaunay::corner(t, k));
+      std::set<std::uint32_t> here(v.begin(), v.end()), there(other.vertices.begin(), other.vertices.end());
       here.erase(v[k]);
-      there.erase(all[across / 4].vertices[across % 4]);
+      there.erase(other.vertices[back]);
       ASSERT_EQ(here, there);
     }
   }
