@@ -203,7 +203,6 @@ std::vector<HardCloud> of_odd_samplings() {
       // One tube between them, or none: a manifold has no common points.
       {"TouchingInAPoint", two_balls_with_a_common_point, {{}, 2 * ball, 0.02, 2}},
       {"TouchingInAnEdge", two_cubes_with_a_common_edge, {{}, 2000, 0.02, 2, std::nullopt}},
-      // Whoever crosses a surface changes sides: what both balls have in common is outside.
       // What both have in common is solid (docs/decisions/0045).
       {"CrossingBodies",
        [] {
