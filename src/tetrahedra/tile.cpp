@@ -29,6 +29,8 @@ constexpr std::uint64_t looks_per_tetrahedron = 32;
 constexpr std::uint64_t looks_that_do_not_matter = 1000000; // a hundredth of a second
 constexpr std::uint64_t looks_as_long_as_a_test = 16;       // of one sample, where exact arithmetic is needed
 
+constexpr std::uint64_t fetched_ahead = 16; // tetrahedra of about two samples
+
 /// Which vertex goes where so that the smallest comes first and the second smallest second. Only even
 /// permutations are used, so the orientation stays; with it the form is unique.
 inline std::array<std::size_t, 4> canonical_order(const std::array<std::uint32_t, 4>& v) {
@@ -289,7 +291,8 @@ class TileMaker {
     for (std::uint32_t s = 0; s < range_.size(); ++s) {
       sorted.clear();
       for (const std::uint32_t t : rows[s]) sorted.emplace_back(sorting_key(t), t);
-      for (std::uint64_t j = rows.begin[s + 1]; j < std::min(rows.begin[s + 1] + 16, rows.begin.back()); ++j)
+      const std::uint64_t next = rows.begin[s + 1];
+      for (std::uint64_t j = next; j < std::min(next + fetched_ahead, rows.begin.back()); ++j)
         prefetch(delaunay_.tetrahedra()[rows.item[j]]);
       std::sort(sorted.begin(), sorted.end());
       for (const auto& [key, number] : sorted) {
@@ -344,7 +347,7 @@ class TileMaker {
   std::vector<bool> known_;           ///< samples of others that were inserted
   std::vector<std::uint32_t> wanted_; ///< blocks
   std::vector<Waiting> waiting_;
-  std::uint64_t searched_ = 0, asked_ = 0, looks_ = 0;
+  std::uint64_t asked_ = 0, looks_ = 0;
   std::uint64_t inserted_ = 0; ///< since the last report
   std::int64_t reported_ = 0;  ///< tetrahedra
 };
