@@ -40,7 +40,7 @@ std::array<std::int16_t, 4> cosines(const std::array<Vec3, 4>& p, const std::arr
   std::array<double, 4> size{};
   for (std::size_t k = 0; k < 4; ++k) size[k] = norm(across[k]);
   const bool has_no_say = is_flat(p, *std::max_element(size.begin(), size.end()));
-  const Vec3 centre = has_no_say ? p[0] : std::apply(circumcentre, p); // exact ones of flat tetrahedra take their time
+  const Vec3 centre = std::apply(circumcentre, p);
   const double radius = distance(centre, p[0]);
   std::array<std::int16_t, 4> result{};
   for (std::size_t k = 0; k < 4; ++k) {
