@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Sets of numbers that are emptied again and again.
+/// Sets of numbers: lists that are emptied again and again, and what is sorted.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -33,6 +34,13 @@ class DistinctNumbers {
   std::vector<std::uint32_t> numbers_;
   std::uint32_t list_ = 1;
 };
+
+/// In order, each once.
+template <class T>
+void sort_distinct(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
 
 /// Block length for loops over n items with such a table for each block.
 inline std::size_t block_with_table(std::size_t n) { return n / 64 < 2048 ? 2048 : n / 64 + 1; }

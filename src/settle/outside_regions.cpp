@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "geometry/distinct_numbers.h"
 #include "geometry/mesh_topology.h"
 #include "geometry/tetrahedron.h"
 
@@ -26,8 +27,7 @@ std::vector<SampleIndex> samples_of(const Tetrahedralization& t, std::span<const
   for (const TetrahedronIndex i : tetrahedra)
     for (const VertexIndex v : t.tetrahedra[i])
       if (!t.is_corner(v)) samples.push_back(t.sample(v));
-  std::sort(samples.begin(), samples.end());
-  samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
+  sort_distinct(samples);
   return samples;
 }
 

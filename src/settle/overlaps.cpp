@@ -8,6 +8,7 @@
 #include <span>
 
 #include "evidence/next_sheet.h"
+#include "geometry/distinct_numbers.h"
 #include "geometry/mesh_topology.h"
 #include "geometry/tetrahedron.h"
 #include "samples/scales.h"
@@ -33,12 +34,6 @@ constexpr double least_room = 4;
 constexpr double least_parted = 0.25;
 // So many samples of such a curve say how it is with all.
 constexpr std::size_t enough_of_curve = 256;
-
-template <class T>
-void sort_distinct(std::vector<T>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
 
 /// Samples and tetrahedra around some samples, each in order.
 struct Around {

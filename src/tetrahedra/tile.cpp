@@ -8,6 +8,7 @@
 
 #include <eigencrust/error.h>
 
+#include "geometry/distinct_numbers.h"
 #include "geometry/predicates.h"
 #include "geometry/tetrahedron.h"
 #include "parallel/compressed_rows.h"
@@ -165,11 +166,6 @@ class TileMaker {
       }
       sort_distinct(open);
     }
-  }
-
-  static void sort_distinct(std::vector<std::uint32_t>& numbers) {
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   }
 
   /// What tetrahedra wait for; then those are open that are still there. \return false where all is settled, everywhere
