@@ -46,7 +46,7 @@ struct PartitionReport {
 struct MovedReport {
   std::uint64_t vertices = 0;          ///< that are elsewhere, but for strays
   double median = 0, q99 = 0, max = 0; ///< of the distances of these, in the unit of the input
-  std::uint64_t strays = 0;            ///< isolated points that moved to the middle of a bridge, however far
+  std::uint64_t strays = 0;            ///< points that stand alone and moved to the middle of a bridge, however far
   std::uint64_t crossing = 0;          ///< pairs of triangles that cross all the same
 };
 

@@ -14,9 +14,10 @@
 
 namespace eigencrust {
 
-/// Vertices that are isolated samples and in no triangle that samples bear out (Surface::unsupported): where samples
-/// are missing the surface has to go through something. None at a rim, and none of pieces of nothing else. Increasing.
-/// \param fans of the surface
+/// Vertices that are strays: where samples are missing the surface has to go through something. They are isolated
+/// samples in no triangle that samples bear out (Surface::unsupported); or, where of the isolated samples most are
+/// passed by, in patches of vertices that stand as far from others as those, and that are rougher than a coarse part
+/// would be. None at a rim, and none of pieces of nothing else. Increasing. \param fans of the surface
 std::vector<std::uint32_t> strays_on_bridges(const Surface& surface, const SurfaceFans& fans, const SampleModel& model);
 
 /// Moves all of them to the mean of their neighbours at once, so that the bridge is a membrane between samples that are
