@@ -16,7 +16,7 @@ test_packages=("${tool_packages[@]}" "${mpi_packages[@]}" libgtest-dev libgmock-
 python_packages=(pybind11-dev python3-dev python3-numpy)
 python_test_packages=(python3-pip python3-venv python3-setuptools python3-wheel python3-open3d)
 # What others reconstruct with, to be compared with.
-peer_packages=(python3-open3d)
+peer_packages=(python3-open3d meshlab xvfb xauth)
 fuzz_packages=(clang libclang-rt-14-dev)
 
 fail() {

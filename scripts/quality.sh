@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Holds the program against its other methods and against Open3D and CGAL on the clouds of the 2004 paper's figures, raw
-# and simulated scans, and writes a page: FOLDER/quality.md with its pictures and FOLDER/quality.html, one file with all
-# of them. Installs what it needs (Debian 12) and builds it. Hours for everything; outcomes are kept in FOLDER/work, so a
-# run that was stopped goes on. Clouds of $EIGENCRUST_DATA and $EIGENCRUST_FIELD that are not there are skipped, and so
-# are programs that are not installed.
+# Holds the program against its other methods and against Open3D, CGAL and MeshLab on the clouds of the 2004 paper's
+# figures, raw and simulated scans, and writes a page: FOLDER/quality.md with its pictures and FOLDER/quality.html, one
+# file with all of them. Installs what it needs (Debian 12) and builds it. Hours for everything; outcomes are kept in
+# FOLDER/work, so a run that was stopped goes on. Clouds of $EIGENCRUST_DATA and $EIGENCRUST_FIELD that are not there are
+# skipped, and so are programs that are not installed.
 # Usage: scripts/quality.sh [--short] [--cases WORDS] [--no-peers] [--docs] [FOLDER, default quality_out]
 #   --short        one small cloud that needs no data: a minute
 #   --cases WORDS  cases whose group/name contains one of these words: fig9/,raw/bunny; build/eigencrust-quality --cases
@@ -36,7 +36,7 @@ targets=(eigencrust eigencrust-quality)
 install_packages "${build_packages[@]}" "${tool_packages[@]}"
 if [ "$peers" = yes ]; then
   # Without them the page says that they are not installed.
-  (install_packages "${peer_packages[@]}") || printf 'skipped: no Open3D\n' >&2
+  (install_packages "${peer_packages[@]}") || printf 'skipped: Open3D and MeshLab\n' >&2
   targets+=(eigencrust-peers)
 fi
 configure release build -DEIGENCRUST_BUILD_TOOLS=ON -DEIGENCRUST_BUILD_BENCH=ON

@@ -69,6 +69,29 @@ void add_cgal(const ContestPrograms& programs, const fs::path& cloud, const fs::
   }
 }
 
+bool is_installed(const std::string& program) {
+  try {
+    run_child({"/bin/sh", "-c", "command -v " + program + " > /dev/null"});
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+void add_meshlab(const ContestPrograms& programs, const fs::path& cloud, const fs::path& mesh,
+                 std::vector<Contestant>& all) {
+  const bool there = fs::exists(programs.python) && is_installed("meshlabserver") && is_installed("xvfb-run");
+  for (const auto& [name, method] :
+       {std::pair{"MeshLab Poisson", "poisson"}, std::pair{"MeshLab ball pivoting", "ball-pivoting"}}) {
+    Contestant c;
+    c.name = name;
+    c.peer = c.says_time = true;
+    c.commands = {{programs.python, EIGENCRUST_MESHLAB_SCRIPT, method, cloud, mesh, programs.eigencrust}};
+    if (!there) c.missing = "not installed";
+    all.push_back(std::move(c));
+  }
+}
+
 } // namespace
 
 std::vector<Contestant> contestants(const ContestCase& item, const ContestPrograms& programs, const fs::path& cloud,
@@ -80,6 +103,7 @@ std::vector<Contestant> contestants(const ContestCase& item, const ContestProgra
   if (!item.peers) return all;
   add_open3d(programs, cloud, mesh, threads, all);
   add_cgal(programs, cloud, mesh, all);
+  add_meshlab(programs, cloud, mesh, all);
   return all;
 }
 

@@ -14,7 +14,7 @@ namespace eigencrust::bench {
 /// Where the programs are. One that is not there is said to be not installed.
 struct ContestPrograms {
   std::filesystem::path eigencrust, peers; ///< the command; the drivers of CGAL's methods
-  std::string python;                      ///< for Open3D
+  std::string python;                      ///< for Open3D and MeshLab
 };
 
 struct Contestant {
