@@ -145,10 +145,11 @@ struct Html {
 };
 
 constexpr const char* style =
-    "body{font:15px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222;background:#fff}"
-    ".wide{overflow-x:auto}table{border-collapse:collapse;font-size:13px;margin:.5em 0}"
+    "body{font:15px/1.5 system-ui,sans-serif;max-width:1500px;margin:2em auto;padding:0 1em;color:#222;background:#fff}"
+    "p{max-width:1000px}.wide{overflow-x:auto}table{border-collapse:collapse;font-size:13px;margin:.5em 0}"
     "th,td{padding:.2em .6em;text-align:right;border-bottom:1px solid #ddd;white-space:nowrap}"
-    "th:first-child,td:first-child{text-align:left}thead th{border-bottom:2px solid #888}"
+    "th:first-child,td:first-child{text-align:left}thead th{border-bottom:2px solid "
+    "#888;white-space:normal;vertical-align:bottom}"
     "tr.marked "
     "td:first-child{color:#a50}.pictures{display:flex;flex-wrap:wrap;gap:8px}figure{margin:0;max-width:100%}.small "
     "figure{width:200px}"
