@@ -132,18 +132,20 @@ PageTable sweep_of(const std::vector<const ContestOutcome*>& outcomes, double ma
     std::vector<std::string> cells{name};
     double undisturbed = 0;
     std::string breaks = "never";
-    bool better = false; // somewhere it holds and ours does not
+    bool was_run = false, better = false; // better: somewhere it holds and ours does not
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       const ContestOutcome& o = *outcomes[i];
       const auto run = std::ranges::find(o.runs, name, &ContestRun::name);
       const std::string wrong = run == o.runs.end() ? "not run" : fault(*run, o, undisturbed, margin);
       if (i == 0 && run != o.runs.end()) undisturbed = run->figures.volume;
       if (name == ourselves) faults_of_ours.push_back(wrong);
-      if (!wrong.empty() && breaks == "never") breaks = o.name;
+      const bool is_run = !wrong.starts_with("not "); // run, built or installed
+      was_run = was_run || is_run;
+      if (is_run && !wrong.empty() && breaks == "never") breaks = o.name;
       better = better || (wrong.empty() && i < faults_of_ours.size() && !faults_of_ours[i].empty());
       cells.push_back(wrong.empty() ? "holds" : wrong);
     }
-    cells.push_back(breaks);
+    cells.push_back(was_run ? breaks : "");
     if (!name.starts_with(ourselves) && better) cells.front() = std::string(mark).append(cells.front());
     table.rows.push_back(std::move(cells));
   }
