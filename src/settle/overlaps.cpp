@@ -25,6 +25,9 @@ constexpr double least_curve = 2 * 2 * std::numbers::pi * passing_ball;
 // What has more samples along the curve for each of its own is a crack, lies among strays, or is the pore between
 // beads.
 constexpr double most_curve = 1.25;
+// Square of the samples along the curve for each of the chamber: a peg that sticks four of its radii deep in a body has
+// 5, where the curve is seen from both sides; a vessel whose neck is narrow, or closed by strays, up to 3.9.
+constexpr double least_outline = 5;
 // What lies around a sample: so many edges away.
 constexpr int edges_around = 3;
 // A chamber is so many times as wide as the ways out of it; the pores between touching beads are less.
@@ -64,8 +67,8 @@ class OverlapSearch {
     std::vector<SampleIndex> curve;
     std::copy_if(near.samples.begin(), near.samples.end(), std::back_inserter(curve),
                  [&](SampleIndex s) { return touches(s, chamber.number); });
-    const auto on_curve = static_cast<double>(curve.size());
-    return on_curve >= least_curve && on_curve < most_curve * static_cast<double>(chamber.samples.size()) &&
+    const auto on_curve = static_cast<double>(curve.size()), all = static_cast<double>(chamber.samples.size());
+    return on_curve >= least_curve && on_curve * on_curve >= least_outline * all && on_curve < most_curve * all &&
            chamber.widest >= least_room * widest_gate(near.tetrahedra, chamber.number) && is_solid_parted(curve) &&
            is_borne_out(chamber);
   }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -131,6 +132,51 @@ TEST(Overlaps, OfTheHybridAreSolid) {
   options.method = Method::spectral_powercrust;
   const Result result = reconstruct(clouds::cloud_of(two_balls(1.2)), options);
   EXPECT_NEAR(result.report.mesh.volume / volume_of_two_balls(1.2), 1, 0.01);
+}
+
+/// Samples at random on the surface that a line turned around the z axis makes; of it radius and height.
+Points turned(const std::vector<std::array<double, 2>>& line, std::size_t n, double noise, std::uint64_t seed) {
+  clouds::Random random(seed);
+  std::vector<double> area{0};
+  for (std::size_t k = 1; k < line.size(); ++k)
+    area.push_back(area.back() + (line[k][0] + line[k - 1][0]) *
+                                     std::hypot(line[k][0] - line[k - 1][0], line[k][1] - line[k - 1][1]));
+  Points points;
+  while (points.size() < n) {
+    const double at = random.uniform(0, area.back()), angle = random.uniform(0, 2 * std::numbers::pi);
+    const auto k = static_cast<std::size_t>(std::upper_bound(area.begin() + 1, area.end() - 1, at) - area.begin());
+    const double t = (at - area[k - 1]) / (area[k] - area[k - 1]);
+    const double r = line[k - 1][0] + t * (line[k][0] - line[k - 1][0]);
+    points.push_back(
+        Vec3{r * std::cos(angle), r * std::sin(angle), line[k - 1][1] + t * (line[k][1] - line[k - 1][1])} +
+        random.in_box(noise));
+  }
+  return points;
+}
+
+/// A bottle: a ball of radius 1 with a wall of 0.14 and a neck.
+std::vector<std::array<double, 2>> bottle(double neck) {
+  std::vector<std::array<double, 2>> line;
+  constexpr int steps = 60;
+  const auto arc = [&](double radius, double narrow, int k) {
+    const double end = std::numbers::pi - std::asin(narrow / radius), angle = end * k / steps;
+    line.push_back({radius * std::sin(angle), -radius * std::cos(angle)});
+  };
+  for (int k = 0; k <= steps; ++k) arc(1, neck + 0.14, k);
+  line.push_back({neck + 0.14, 1.8});
+  line.push_back({neck, 1.8});
+  for (int k = steps; k >= 0; --k) arc(0.86, neck, k);
+  return line;
+}
+
+TEST(Overlaps, BottlesAreEmpty) {
+  constexpr double spacing = 0.033;
+  for (const std::uint64_t seed : {4u, 5u, 6u}) {
+    const Result result = reconstruct(clouds::cloud_of(turned(bottle(3 * spacing), 20000, 0.35 * spacing, seed)));
+    EXPECT_EQ(chambers_of(result), 0) << seed;
+    EXPECT_EQ(result.report.mesh.genus, 0) << seed;
+    EXPECT_LT(result.report.mesh.volume, 0.5 * 4 * std::numbers::pi / 3) << seed;
+  }
 }
 
 TEST(Overlaps, CavitiesAreNone) {
