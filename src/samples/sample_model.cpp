@@ -22,9 +22,8 @@ constexpr std::uint32_t samples_per_place = 64;
 // read as free of it. The level of the surface is the median of as many. Fewer places say nothing of the whole: a small
 // body has edges everywhere.
 constexpr double smoothing_quantile = 0.75;
-// A sample is isolated when it stands so many times lonelier ...
-constexpr double isolation = 2.5;
-// ... and so many neighbours are in no plane: their smallest deviation is more than so much of the second.
+// A sample is isolated when it is lonely and so many neighbours are in no plane: their smallest deviation is more than
+// so much of the second.
 constexpr std::size_t lonely_neighbours = 20;
 constexpr double flat_lonely = 0.4;
 

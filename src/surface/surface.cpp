@@ -4,10 +4,13 @@
 #include <eigencrust/error.h>
 #include <eigencrust/metrics.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "report/snapshots.h"
 #include "surface/components.h"
+#include "surface/rim_strays.h"
 #include "surface/support.h"
 #include "surface/trim.h"
 
@@ -133,12 +136,21 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   UnsupportedTriangles unsupported = run.stage("trim", [&] {
     const std::vector<SightLine> rays = rays_of(cloud, scene);
     const RangeGrid pixels(cloud, scene.sample_of_row, t, rays);
-    auto marked = unsupported_triangles(t, model, rays, one_sided, pixels, surface, threads);
+    const auto unsupported_now = [&] {
+      return unsupported_triangles(t, model, rays, one_sided, pixels, surface, threads);
+    };
+    auto marked = unsupported_now();
     if (is_open && !options.trim && !options.base) {
-      // The hull that a façade ends at hangs between its outermost samples like a curtain.
-      trim(marked_at_rim(surface.mesh, marked), surface);
+      // The hull that a façade ends at hangs between its outermost samples like a curtain, and strays stand beyond the
+      // rim; behind some there are others.
+      for (std::size_t before = 0; before != surface.mesh.triangles.size(); marked = unsupported_now()) {
+        before = surface.mesh.triangles.size();
+        const auto strays = triangles_at_strays(model, surface);
+        std::transform(marked.begin(), marked.end(), strays.begin(), marked.begin(), std::bit_or<std::uint8_t>());
+        trim(marked_at_rim(surface.mesh, marked), surface);
+      }
       close_smallest_rims(t, scene.stars, surface);
-      marked = unsupported_triangles(t, model, rays, one_sided, pixels, surface, threads);
+      marked = unsupported_now();
     }
     const double share = share_of_area(surface, marked);
     return UnsupportedTriangles{std::move(marked), share};
