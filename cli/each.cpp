@@ -3,6 +3,7 @@
 #include <map>
 #include <new>
 
+#include "disk_memory.h"
 #include "messages.h"
 #include "method.h"
 
@@ -76,7 +77,7 @@ int for_each_job(const Request& request, OutputKind kind, const std::function<in
       print_error((one.input.paths[0] + ": " + error.what()).c_str());
       ended = static_cast<int>(error.kind());
     } catch (const std::bad_alloc&) {
-      print_error((one.input.paths[0] + ": memory is exhausted (memory); give fewer points").c_str());
+      print_error((one.input.paths[0] + ": " + memory_is_exhausted()).c_str());
       ended = static_cast<int>(ErrorKind::memory);
     }
     if (status == 0) status = ended;

@@ -92,7 +92,7 @@ class Reader {
 } // namespace
 
 Tetrahedralization KeptTetrahedra::tetrahedralize(Samples samples, const Threads& threads, const WatchGrowth& watch,
-                                                  std::uint64_t max_memory) {
+                                                  std::uint64_t /*max_memory*/) {
   file_ = (std::filesystem::path(folder_) / name_of(samples)).string();
   resumed_ = false;
   if (resume_) {
@@ -101,8 +101,9 @@ Tetrahedralization KeptTetrahedra::tetrahedralize(Samples samples, const Threads
     if (resumed_ && watch) watch(1, found.tetrahedra.size()); // the limit of memory may be another today
     if (resumed_) return found;
   }
-  Tetrahedralization made = ranks_ != nullptr ? ranks_->tetrahedralize(std::move(samples), threads, watch, max_memory)
-                                              : eigencrust::tetrahedralize(std::move(samples), threads, watch);
+  Tetrahedralization made = ranks_ != nullptr
+                                ? ranks_->tetrahedralize(std::move(samples), threads, watch, limit_of_ranks_)
+                                : eigencrust::tetrahedralize(std::move(samples), threads, watch);
   keep(made);
   return made;
 }

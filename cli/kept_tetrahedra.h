@@ -16,8 +16,9 @@ class KeptTetrahedra : public Ranks {
  public:
   /// \param resume takes what an earlier run left there
   /// \param ranks that make them; none: this process does
-  KeptTetrahedra(std::string folder, bool resume, Ranks* ranks)
-      : folder_(std::move(folder)), resume_(resume), ranks_(ranks) {}
+  /// \param limit_of_ranks bytes that each of them may take, also where this one goes out of core; 0: no limit
+  KeptTetrahedra(std::string folder, bool resume, Ranks* ranks, std::uint64_t limit_of_ranks)
+      : folder_(std::move(folder)), resume_(resume), ranks_(ranks), limit_of_ranks_(limit_of_ranks) {}
 
   Tetrahedralization tetrahedralize(Samples samples, const Threads& threads, const WatchGrowth& watch,
                                     std::uint64_t max_memory) override;
@@ -32,6 +33,7 @@ class KeptTetrahedra : public Ranks {
   std::string folder_, file_;
   bool resume_, resumed_ = false;
   Ranks* ranks_;
+  std::uint64_t limit_of_ranks_;
   std::vector<std::string> warnings_;
 
   /// Without tetrahedra: there are none of these samples, or they are damaged.

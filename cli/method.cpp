@@ -2,11 +2,13 @@
 #include "method.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 
 #include <eigencrust/memory_forecast.h>
 #include <eigencrust/option_table.h>
 
+#include "disk_memory.h"
 #include "files.h"
 #include "messages.h"
 #include "page.h"
@@ -14,6 +16,9 @@
 
 namespace eigencrust::cli {
 namespace {
+
+// Of what is forecast. Points and attributes, and the many small arrays, stay in memory.
+constexpr std::uint64_t least_part_in_memory = 8;
 
 /// " [auto; paper: off]". What is off unless it is named, or empty, goes without saying, and so does the tolerance,
 /// which means something else once it is given.
@@ -78,7 +83,8 @@ void add_run_options(OptionTable& app, Request& r) {
       ->capture_default_str();
   app.add_option("--dump-stages", r.dump_stages, "Folder for the stages' products as PLY files")
       ->type_name(folder_to_write);
-  app.add_option("--temp-dir", r.temp_dir, "Folder in which the tetrahedra are kept until the result is there")
+  app.add_option("--temp-dir", r.temp_dir,
+                 "Folder that keeps the tetrahedra until the result is there, and takes what exceeds --max-memory")
       ->type_name("DIR");
   app.add_flag("--resume", r.resume, "Take the tetrahedra that an ended run of these points left in --temp-dir");
   app.add_flag("-q,--quiet", r.quiet, "Print nothing but errors");
@@ -209,22 +215,48 @@ void MethodRun::name_rows_of_files() {
   *found = derived_attribute(make_attribute("source_index", rows));
 }
 
+/// Where more memory is forecast than allowed, the folder for temporary files takes the large arrays.
+/// \return whether it does. \throws Error{memory} where that is not enough, or the disk too small
+bool MethodRun::goes_out_of_core(const Options& options) {
+  const std::uint64_t needed = forecast(cloud).memory_bytes, limit = options.max_memory;
+  if (limit == 0 || request_.temp_dir.empty() || needed <= limit) return false;
+  const std::string said = "the forecast for " + grouped(cloud.points.size()) + " points, " + describe_bytes(needed);
+  if (limit < needed / least_part_in_memory)
+    throw Error(ErrorKind::memory, "memory", said + ", exceeds " + describe_bytes(limit) + " too far",
+                "raise --max-memory to " + describe_bytes(needed / least_part_in_memory) + " at least");
+  std::error_code unknown;
+  const auto room = std::filesystem::space(request_.temp_dir, unknown);
+  if (!unknown && room.available < needed)
+    throw Error(ErrorKind::memory, request_.temp_dir,
+                said + ", exceeds the " + describe_bytes(room.available) + " free on its disk",
+                "name another folder with --temp-dir, or give fewer points");
+  lend_disk(request_.temp_dir, limit);
+  if (lies_in_memory(request_.temp_dir))
+    warn_at_once(request_.temp_dir + " lies in memory itself (tmpfs): name a folder on a disk with --temp-dir");
+  return true;
+}
+
 void MethodRun::reconstruct(const Options& options) {
-  check_memory(cloud, options.max_memory);
-  warn_at_once(memory_warning(forecast(cloud), available_memory_bytes()));
+  const bool out_of_core = goes_out_of_core(options);
+  if (!out_of_core) {
+    check_memory(cloud, options.max_memory);
+    warn_at_once(memory_warning(forecast(cloud), available_memory_bytes()));
+  }
   const auto smoothing = request_.method.find("smoothing");
   if (smoothing != request_.method.end() && smoothing->second.text && options.smooth == 0)
     warn_at_once("--smoothing has no effect without --smooth N");
   Options complete = options;
+  if (out_of_core) complete.max_memory = 0; // lend_disk() sees to it
   // A page shows outliers, of which the other methods know nothing.
   complete.point_results = options.point_results || (page_ && options.method == Method::eigencrust);
   if (!request_.temp_dir.empty())
-    kept_ = std::make_unique<KeptTetrahedra>(request_.temp_dir, request_.resume, request_.ranks);
+    kept_ = std::make_unique<KeptTetrahedra>(request_.temp_dir, request_.resume, request_.ranks, options.max_memory);
   result = eigencrust::reconstruct(cloud, complete, page_ ? *page_ : *observer_, kept_ ? kept_.get() : request_.ranks);
   if (kept_)
     for (const std::string& text : kept_->warnings()) warn_at_once(text);
   if (page_) page_->finished(cloud, result);
   name_rows_of_files();
+  result.report.options.max_memory = options.max_memory;
   result.report.command = command_;
   result.report.files = std::move(read_.files);
   result.report.warnings.insert(result.report.warnings.begin(), told_.begin(), told_.end());
@@ -245,6 +277,7 @@ void MethodRun::finish(const std::function<WriteResult(OutputFiles&, const std::
   report.warnings.insert(report.warnings.end(), written.warnings.begin(), written.warnings.end());
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   report.peak_memory_bytes = peak_memory_bytes();
+  report.peak_disk_bytes = peak_of_lent_disk();
   if (page_) {
     const std::string viewer = read_viewer(request_.report);
     files.add(request_.report, [&](std::ostream& out) { write_page(out, viewer, result, page_->products()); });
@@ -270,8 +303,10 @@ std::ostream& MethodRun::summary() const {
 }
 
 std::string MethodRun::cost() const {
-  return rounded(result.report.seconds) + " s, " + rounded(static_cast<double>(result.report.peak_memory_bytes) / 1e6) +
-         " MB";
+  const auto megabytes = [](std::uint64_t bytes) { return rounded(static_cast<double>(bytes) / 1e6) + " MB"; };
+  const Report& report = result.report;
+  return rounded(report.seconds) + " s, " + megabytes(report.peak_memory_bytes) +
+         (report.peak_disk_bytes > 0 ? " and " + megabytes(report.peak_disk_bytes) + " on disk" : "");
 }
 
 std::string MethodRun::selection() const {

@@ -92,6 +92,7 @@ class MethodRun {
   std::vector<std::string> told_; ///< warnings printed before the work
   void warn_at_once(const std::string& text);
   void name_rows_of_files();
+  bool goes_out_of_core(const Options& options);
 };
 
 } // namespace eigencrust::cli

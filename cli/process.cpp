@@ -16,14 +16,12 @@
 
 #include "process.h"
 
+#include "disk_memory.h"
 #include "messages.h"
 #include "verbs.h"
 
 namespace eigencrust::cli {
 namespace {
-
-constexpr const char* exhausted =
-    "memory is exhausted (memory); give fewer points or take a machine with more, info forecasts what is needed";
 
 /// Allocates nothing, for there may be nothing left.
 int fail(const char* message, ErrorKind kind) {
@@ -63,9 +61,9 @@ int run(const Arguments& arguments) {
   } catch (const Error& error) {
     return fail(error.what(), error.kind());
   } catch (const std::bad_alloc&) {
-    return fail(exhausted, ErrorKind::memory);
+    return fail(memory_is_exhausted(), ErrorKind::memory);
   } catch (const std::length_error&) { // a container larger than any memory
-    return fail(exhausted, ErrorKind::memory);
+    return fail(memory_is_exhausted(), ErrorKind::memory);
   } catch (const std::system_error& error) { // of files, threads, locks
     return fail(error, "(system); check the names, the permissions and the limits", ErrorKind::input);
   } catch (const std::exception& error) {
@@ -106,7 +104,7 @@ int run_process(int argc, char** argv, Ranks* ranks) {
     arguments.words.assign(argv + (argc > 0 ? 1 : 0), argv + argc);
     status = run(arguments);
   } catch (const std::bad_alloc&) {
-    status = fail(exhausted, ErrorKind::memory);
+    status = fail(memory_is_exhausted(), ErrorKind::memory);
   }
   std::cout.rdbuf(bare);
   print_end(status);

@@ -15,6 +15,7 @@
 #include <eigencrust/error.h>
 #include <eigencrust/io.h>
 
+#include "disk_memory.h"
 #include "messages.h"
 
 namespace eigencrust::cli {
@@ -67,9 +68,7 @@ void on_no_memory() {
 /// listings of folders. Where what was thrown cannot be asked for, it is remembered whether memory ran out.
 [[noreturn]] void on_terminate() {
   if (std::current_exception() != nullptr ? is_about_memory() : has_run_out != 0)
-    end_with(
-        "memory is exhausted (memory); give fewer points or take a machine with more, info forecasts what is needed",
-        ErrorKind::memory, "4");
+    end_with(memory_is_exhausted(), ErrorKind::memory, "4");
   end_with("an exception was not caught (internal); report this as a fault of the program", ErrorKind::guarantee, "6");
 }
 

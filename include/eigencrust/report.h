@@ -106,6 +106,7 @@ struct Report {
   std::optional<SimplifiedReport> simplified; ///< none: triangles are those of the surface
   double seconds = 0;                         ///< of the whole run
   std::uint64_t peak_memory_bytes = 0;        ///< of the process
+  std::uint64_t peak_disk_bytes = 0;          ///< of arrays that lay on the disk, out of core
   std::vector<std::string> warnings;          ///< what there is to know before use, with what to do
   /// What the mesh was promised to be and is not (closed, manifold, oriented, free of crossings): a fault of the
   /// program.

@@ -157,7 +157,8 @@ void check_memory(const PointCloud& cloud, std::uint64_t limit) {
   throw Error(ErrorKind::memory, "memory",
               "the forecast for " + std::to_string(n) + " points, " + describe_bytes(needed) +
                   ", exceeds the limit of " + describe_bytes(limit),
-              "raise --max-memory to " + std::to_string(needed / 1'000'000 + 1) + "M or give fewer points, about " +
+              "raise --max-memory to " + std::to_string(needed / 1'000'000 + 1) +
+                  "M, let a disk take the rest with --temp-dir, or give fewer points, about " +
                   std::to_string(points_within(limit, further)) + " fit");
 }
 
@@ -181,7 +182,9 @@ std::uint64_t available_memory_bytes(const std::filesystem::path& root) {
 std::string memory_warning(const Forecast& f, std::uint64_t available) {
   if (available == 0 || f.memory_bytes <= available) return {};
   return "the forecast of memory, " + describe_bytes(f.memory_bytes) + ", exceeds the " + describe_bytes(available) +
-         " that are available; the system may end the run. Give fewer points or take another machine";
+         " that are available; the system may end the run. Let a disk take the rest (--max-memory and --temp-dir), or "
+         "give "
+         "fewer points";
 }
 
 std::uint64_t parse_memory_size(const std::string& text) {

@@ -212,6 +212,7 @@ std::string to_json(const Report& report) {
       {"simplified", json_of(report.simplified)},
       {"seconds", report.seconds},
       {"peak_memory_bytes", report.peak_memory_bytes},
+      {"peak_disk_bytes", report.peak_disk_bytes},
       {"warnings", report.warnings},
       {"broken_guarantees", report.broken_guarantees}};
   // Paths may hold bytes that are no UTF-8; a report must still come out.

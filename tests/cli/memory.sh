@@ -121,3 +121,67 @@ test_memory_that_is_exhausted_on_threads() {
     rm -f mesh.ply
   done
 }
+
+# peak REPORT: largest resident memory.
+peak() { value "$1" /peak_memory_bytes; }
+
+# The bytes are those of a run in memory, for any threads; the files have no names and go with the process.
+test_the_disk_takes_what_exceeds_the_limit() {
+  sphere 100000 | shuffled >cloud.xyz
+  expect 0 cloud.xyz -o plain.ply --report plain.json
+  local threads
+  for threads in 1 3; do
+    expect 0 cloud.xyz -o mesh.ply --report report.json --max-memory 60M --temp-dir disk --threads "$threads"
+    [ ! -s err ] || grep -q 'lies in memory itself' err || die "a warning: $(cat err)"
+    grep -qE ' MB and [0-9.]+ MB on disk$' out || die "no word of the disk"
+    same plain.ply mesh.ply
+    equal "limit in the report" "$(value report.json /options/max_memory)" 60000000
+    awk -v peak="$(peak report.json)" -v plain="$(peak plain.json)" 'BEGIN { exit !(peak < 0.85 * plain) }' ||
+      die "$(peak report.json) bytes in memory, $(peak plain.json) without a limit"
+    [ "$(value report.json /peak_disk_bytes)" -gt 40000000 ] || die "hardly anything on the disk"
+    [ -z "$(ls -A disk)" ] || die "left on the disk: $(ls -A disk)"
+  done
+  equal "on disk without a limit" "$(value plain.json /peak_disk_bytes)" 0
+  expect 0 cloud.xyz -o small.ply --report report.json --max-memory 1G --temp-dir disk
+  equal "on disk below the limit" "$(value report.json /peak_disk_bytes)" 0
+  expect 0 outliers cloud.xyz -o plain_points.ply
+  expect 0 outliers cloud.xyz -o points.ply --max-memory 60M --temp-dir disk
+  same plain_points.ply points.ply
+}
+
+test_the_limit_is_too_low_for_any_disk() {
+  sphere 100000 >cloud.xyz
+  expect_error 4 "exceeds 10 MB too far" cloud.xyz -o mesh.ply --max-memory 10M --temp-dir disk
+  grep -qF 'raise --max-memory to 15 MB' err || die "no remedy: $(cat err)"
+  rmdir disk
+  expect_files cloud.xyz
+}
+
+test_the_disk_is_full() {
+  sphere 100000 >cloud.xyz
+  (
+    ulimit -f 512 # of 1024 bytes: no array fits
+    run cloud.xyz -o mesh.ply --max-memory 60M --temp-dir disk
+    [ "$status" -eq 4 ] || exit 1
+  ) || die "no status 4 where the disk takes no array: $(cat err)"
+  [ "$(wc -l <err)" -eq 1 ] || die "not one line: $(cat err)"
+  grep -qF 'could not be put on the disk: File too large (--temp-dir); free some space' err || die "not told: $(cat err)"
+  rmdir disk
+  expect_files cloud.xyz
+}
+
+test_the_disk_is_too_small() {
+  sphere 100000 >cloud.xyz
+  unshare --user --map-root-user --mount true 2>/dev/null || skip "nothing may be mounted here"
+  mkdir disk
+  export program
+  # shellcheck disable=SC2016
+  unshare --user --map-root-user --mount bash -c 'mount -t tmpfs -o size=50m none disk &&
+    { "$program" cloud.xyz -o mesh.ply --max-memory 60M --temp-dir disk 2>err || echo $? >status; }'
+  equal status "$(cat status)" 4
+  grep -qE 'exceeds the 5[0-9] MB free on its disk \(disk\); name another folder' err || die "not told: $(cat err)"
+  # shellcheck disable=SC2016
+  unshare --user --map-root-user --mount bash -c 'mount -t tmpfs -o size=500m none disk &&
+    "$program" cloud.xyz -o mesh.ply --max-memory 60M --temp-dir disk 2>err >out'
+  grep -qF 'disk lies in memory itself (tmpfs)' err || die "not told: $(cat err)"
+}

@@ -111,7 +111,7 @@ test_report_holds_what_is_promised() {
     /mesh/vertices /mesh/triangles /mesh/boundary_edges /mesh/nonmanifold_edges /mesh/nonmanifold_vertices \
     /mesh/inconsistent_edges /mesh/degenerate_triangles /mesh/self_intersections /mesh/components /mesh/genus \
     /mesh/euler /mesh/volume /mesh/area /mesh/component_list/0/triangles \
-    /grid_spacing /dropped_components /undecided_nodes /seconds /peak_memory_bytes /warnings; do
+    /grid_spacing /dropped_components /undecided_nodes /seconds /peak_memory_bytes /peak_disk_bytes /warnings; do
     value report.json "$key" >/dev/null || die "the report lacks $key"
   done
   equal schema "$(value report.json /schema)" 1
