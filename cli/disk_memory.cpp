@@ -227,8 +227,7 @@ std::uint64_t peak_of_lent_disk() { return disk().peak(); }
 const char* memory_is_exhausted() {
   if (disk().error() == 0)
     return "memory is exhausted (memory); give fewer points or let a disk take a part (--max-memory and --temp-dir), "
-           "info "
-           "forecasts what is needed";
+           "info forecasts what is needed";
   static std::array<char, 300> text;
   std::snprintf(text.data(), text.size(),
                 "what exceeds --max-memory could not be put on the disk: %.100s (--temp-dir); free some space or name "
