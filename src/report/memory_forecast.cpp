@@ -183,8 +183,7 @@ std::string memory_warning(const Forecast& f, std::uint64_t available) {
   if (available == 0 || f.memory_bytes <= available) return {};
   return "the forecast of memory, " + describe_bytes(f.memory_bytes) + ", exceeds the " + describe_bytes(available) +
          " that are available; the system may end the run. Let a disk take the rest (--max-memory and --temp-dir), or "
-         "give "
-         "fewer points";
+         "give fewer points";
 }
 
 std::uint64_t parse_memory_size(const std::string& text) {

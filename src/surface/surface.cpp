@@ -136,26 +136,20 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
   UnsupportedTriangles unsupported = run.stage("trim", [&] {
     const std::vector<SightLine> rays = rays_of(cloud, scene);
     const RangeGrid pixels(cloud, scene.sample_of_row, t, rays);
-    const auto unsupported_now = [&] {
-      return unsupported_triangles(t, model, rays, one_sided, pixels, surface, threads);
-    };
-    auto marked = unsupported_now();
+    surface.unsupported = unsupported_triangles(t, model, rays, one_sided, pixels, surface, threads);
     if (is_open && !options.trim && !options.base) {
       // The hull that a façade ends at hangs between its outermost samples like a curtain, and strays stand beyond the
       // rim; behind some there are others.
-      for (std::size_t before = 0; before != surface.mesh.triangles.size(); marked = unsupported_now()) {
+      for (std::size_t before = 0; before != surface.mesh.triangles.size();) {
         before = surface.mesh.triangles.size();
-        const auto strays = triangles_at_strays(model, surface);
-        std::transform(marked.begin(), marked.end(), strays.begin(), marked.begin(), std::bit_or<std::uint8_t>());
-        trim(marked_at_rim(surface.mesh, marked), surface);
+        std::vector<std::uint8_t> gone = triangles_at_strays(model, surface);
+        std::transform(gone.begin(), gone.end(), surface.unsupported.begin(), gone.begin(), std::bit_or());
+        trim(marked_at_rim(surface.mesh, gone), surface);
       }
       close_smallest_rims(t, scene.stars, surface);
-      marked = unsupported_now();
     }
-    const double share = share_of_area(surface, marked);
-    return UnsupportedTriangles{std::move(marked), share};
+    return UnsupportedTriangles{surface.unsupported, share_of_area(surface, surface.unsupported)};
   });
-  surface.unsupported = unsupported.marked;
   if (options.trim) trim(std::move(unsupported.marked), surface);
   if (options.trim || (is_open && !options.base)) {
     describe(filter_components(surface, options.components, t, model, labels.labels(), threads), run);
