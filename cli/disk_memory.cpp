@@ -15,7 +15,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
-#include <map>
 #include <mutex>
 #include <new>
 #include <thread>
@@ -27,6 +26,7 @@
 
 #include <eigencrust/error.h>
 
+#include "blocks_in_turn.h"
 #include "disk_memory.h"
 
 namespace eigencrust::cli {
@@ -34,9 +34,10 @@ namespace {
 
 // Of smaller arrays there are too many for a file each, and together they are small.
 constexpr std::size_t least_block = std::size_t{1} << 20;
-// Threads that go along arrays in the system's memory fetch gigabytes in a second.
+// Threads that look here and there into arrays in the system's memory fetch a gigabyte in 10 ms, in which the watch may
+// not get a core at all: a quarter to a third of what may be resident is left to that.
 constexpr std::chrono::milliseconds between_looks(1);
-constexpr double held_at_most = 0.85, held_after = 0.7; ///< of the bytes that may be resident
+constexpr double held_at_most = 0.6, held_after = 0.5; ///< of the bytes that may be resident
 constexpr std::size_t given_back_at_once = std::size_t{1} << 25;
 
 /// Blocks in files.
@@ -62,8 +63,7 @@ class Disk {
   std::uint64_t resident_ = 0;
   std::atomic<std::uint64_t> file_number_ = 0;
   std::uint64_t lent_ = 0, peak_ = 0;
-  std::map<char*, std::size_t> blocks_;
-  std::pair<char*, std::size_t> hand_{}; ///< the block and the place in it where the next pages leave memory
+  BlocksInTurn blocks_;
 
   /// A file without a name, of so many bytes that are the process's own: none is missing when it is written.
   int new_file(std::size_t bytes);
@@ -126,7 +126,7 @@ void* Disk::take(std::size_t bytes) {
   const std::lock_guard lock(mutex_);
   begin_ = std::min(begin_.load(), address);
   end_ = std::max(end_.load(), address + size);
-  blocks_.emplace(static_cast<char*>(block), size);
+  blocks_.add(static_cast<char*>(block), size);
   lent_ += size;
   peak_ = std::max(peak_, lent_);
   return block;
@@ -138,11 +138,9 @@ bool Disk::give_back(void* p) {
   std::size_t size = 0;
   {
     const std::lock_guard lock(mutex_);
-    const auto found = blocks_.find(static_cast<char*>(p));
-    if (found == blocks_.end()) return false;
-    size = found->second;
+    size = blocks_.remove(static_cast<char*>(p));
+    if (size == 0) return false;
     lent_ -= size;
-    blocks_.erase(found);
   }
   munmap(p, size);
   return true;
@@ -155,16 +153,11 @@ bool Disk::let_go(std::uint64_t until_resident) {
   bool any = false;
   std::uint64_t looked_at = 0;
   for (std::uint64_t held = resident_bytes(); held > until_resident && looked_at < lent_;) {
-    auto at = blocks_.lower_bound(hand_.first);
-    if (at == blocks_.end()) at = blocks_.begin();
-    if (at->first != hand_.first) hand_ = {at->first, 0};
-    const std::size_t part = std::min(given_back_at_once, at->second - hand_.second);
-    madvise(at->first + hand_.second, part, MADV_DONTNEED);
+    const auto [begin, size] = blocks_.next(given_back_at_once);
+    madvise(begin, size, MADV_DONTNEED);
     const std::uint64_t before = std::exchange(held, resident_bytes());
     any = any || held < before; // other threads fetch pages meanwhile
-    looked_at += part;
-    hand_.second += part;
-    if (hand_.second == at->second) hand_ = {at->first + at->second, 0};
+    looked_at += size;
   }
   return any;
 }

@@ -42,6 +42,11 @@ double largest_variance_of_noise(const LocalFrame& frame) {
   return larger > smaller ? smaller * larger / (larger - smaller) : std::numeric_limits<double>::infinity();
 }
 
+bool lies_within(const Vec3& place, const LocalFrame& sheet) {
+  const double height = dot(place - sheet.mean, sheet.axis[0]);
+  return height * height <= static_cast<double>(noise_bound * noise_bound) * sheet.variance[0];
+}
+
 } // namespace
 
 PlaceModels::PlaceModels(std::span<const Vec3> positions, const PointTree& tree) : positions_(positions), tree_(tree) {
@@ -107,6 +112,8 @@ PlaceModel PlaceModels::flat_at(const Vec3& place) const {
     const LocalFrame frame = local_frame(points(level), around, place);
     const bool is_flat = frame.is_flat();
     if (is_flat && level > 0) {
+      // Large neighbourhoods of far strays reach the object, which looks flat from there.
+      if (!lies_within(place, frame)) return {};
       if (const auto deviation = deviation_within_sheets(points(level), around, frame)) return {true, *deviation};
       // A few samples lie in a plane by chance; the next larger neighbourhood has to agree.
       if (inner->is_flat()) {

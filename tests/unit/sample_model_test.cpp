@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "clouds.h"
+#include "geometry/nearest.h"
+#include "samples/place_model.h"
 #include "samples/two_sheets.h"
 
 namespace eigencrust {
@@ -148,6 +150,25 @@ TEST(SampleModel, OutliersAreIsolatedAndSparsePartsAreNot) {
     (row < surface ? wrong : found) += o.model.isolated[SampleIndex{o.at(row)}] > 0;
   EXPECT_EQ(wrong, 0u);
   EXPECT_GE(found, 54u);
+}
+
+TEST(PlaceModels, PlacesOfFarOutliersAreNotFlat) {
+  // Their neighbourhoods reach the sheet, clean or noisy; as flat places they would be one another's level.
+  for (const double sigma : {0.0, 0.5, 2.0}) {
+    clouds::Random random(8);
+    Points points = grid(200);
+    for (Vec3& p : points) p.z += sigma * deviate(random);
+    const std::size_t surface = points.size();
+    for (int i = 0; i < 100; ++i)
+      points.push_back({random.uniform(0, 200), random.uniform(0, 200), random.uniform(15, 100)});
+    const PointTree tree(points);
+    const PlaceModels models(points, tree);
+    std::size_t flat_outliers = 0, flat_places = 0;
+    for (std::size_t row = surface; row < points.size(); ++row) flat_outliers += models.at(points[row]).is_flat;
+    for (std::size_t row = 0; row < surface; row += 400) flat_places += models.at(points[row]).is_flat;
+    EXPECT_LE(flat_outliers, 10u) << sigma;
+    EXPECT_GE(flat_places, 90u) << sigma;
+  }
 }
 
 TEST(SampleModel, AGivenNoiseIsTakenEverywhere) {
