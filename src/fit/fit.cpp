@@ -30,12 +30,10 @@ constexpr int normal_steps = 10;
 // The second fits start from the places and normals of the first, which may be coarse; a third takes off nothing any
 // more.
 constexpr std::array<FitEffort, 2> efforts{{{25, 3}, {50, 6}}};
-// In widths: fits of places farther away have no say in where a vertex goes.
-constexpr double blend_reach = 1;
 // In units of widths, squared: what is less than that about a fit is no misfit.
 constexpr double least_misfit = 1e-3;
-// Cosine: fits of one side.
-constexpr double same_side = 0.5;
+// Of all planes: a direction that fewer lie across is left as it is. Slopes of smooth places are less than that.
+constexpr double least_across = 0.05;
 // Widths are in units of the noise, or of so many spacings where that is more: fewer samples make no fit.
 constexpr double least_unit_in_spacings = 0.7;
 // The noise of a place is no more than that of most of the places around, which are those of a cluster so many levels
@@ -170,25 +168,16 @@ struct Symmetric {
   }
 };
 
-/// From the mean of the ways to some planes the way to where they intersect, by least squares: to the edge between two.
-/// A direction that few of the planes lie across is stretched to twice its length at most; of three eigenvalues that
-/// add up to 1 the second is 1/2 at most, so that only the direction of the first is stretched less. Where the two are
-/// about the same that makes no difference, and else few steps of the power method find it.
-/// \param normals weighted sum of n nᵀ \param total of the weights \param normal a start
-Vec3 towards_all(const Vec3& mean, const Symmetric& normals, double total, const Vec3& normal) {
-  constexpr int steps = 6;
-  constexpr double most_stretched = 2;
-  Vec3 first = normal, last;
-  for (int step = 0; step < steps; ++step) {
-    last = first;
-    first = (1 / total) * (normals * first); // never longer, and hardly shorter than a third
-  }
-  const double length = norm(first);
-  if (!(length > 0)) return mean;
-  const Vec3 direction = (1 / length) * first;
-  const double largest = length / norm(last);
-  return most_stretched * mean -
-         (most_stretched - 1 / std::max(largest, 1 / most_stretched)) * dot(direction, mean) * direction;
+/// The way to where some planes intersect, by least squares: to the edge between two, and along their normal where all
+/// are about the same.
+/// \param normals weighted sum of n nᵀ \param total of the weights, > 0 \param way weighted sum of the ways to each
+Vec3 towards_all(const Vec3& way, const Symmetric& normals, double total) {
+  const double ridge = least_across * total;
+  const Symmetric m{normals.xx + ridge, normals.xy, normals.xz, normals.yy + ridge, normals.yz, normals.zz + ridge};
+  const Symmetric adjugate{m.yy * m.zz - m.yz * m.yz, m.xz * m.yz - m.xy * m.zz, m.xy * m.yz - m.xz * m.yy,
+                           m.xx * m.zz - m.xz * m.xz, m.xy * m.xz - m.xx * m.yz, m.xx * m.yy - m.xy * m.xy};
+  const double determinant = m.xx * adjugate.xx + m.xy * adjugate.xy + m.xz * adjugate.xz; // > 0: the ridge is
+  return (1 / determinant) * (adjugate * way);
 }
 
 /// The middle of the noise, from fits at places spread over the surface.
@@ -358,16 +347,21 @@ class SurfaceFit {
     Vec3 way, normal;
     Symmetric normals;
     const double unit = std::max(noise_at(v), least_unit_in_spacings * spacing_at(v));
-    const double radius = blend_reach * width * unit, flat = 1 / (radius * radius);
+    const double radius = width * unit, flat = 1 / (radius * radius);
+    const double moved = distance(position_[v], surface_.mesh.vertices[v]);
     for (const LocalQuadric* const one : around) {
       const LocalQuadric& fit = *one;
       const double nearness = 1 - squared_norm(fit.origin - position_[v]) * flat;
-      if (!(nearness > 0) || !(dot(fit.normal, normal_[v]) > same_side)) continue;
-      // Fits across an edge fit badly: they leave the word to those beside it.
-      const double misfit = fit.noise_variance + least_misfit * unit * unit;
-      const double w = nearness * nearness / (fit.variance * misfit * misfit);
+      if (!(nearness > 0) || !(dot(fit.normal, normal_[v]) > 0)) continue;
       // Along the normal of the fit: along another one what lies beside an edge would slide beyond it.
       const auto [ahead, across] = fit.foot(position_[v]);
+      // A surface farther off than that is another side, whose edge with this one is not here.
+      const double far = moved + spacing_at(v) + 2 * std::sqrt(fit.noise_variance);
+      const double agreement = 1 - ahead * ahead / (far * far);
+      if (!(agreement > 0)) continue;
+      // Fits across an edge fit badly: they leave the word to those beside it.
+      const double misfit = fit.noise_variance + least_misfit * unit * unit, weight = nearness * agreement / misfit;
+      const double w = weight * weight / (misfit * misfit * fit.variance);
       way = way + w * ahead * across;
       normals.add(w, across);
       squares += w * ahead * ahead;
@@ -377,11 +371,11 @@ class SurfaceFit {
       total += w;
     }
     if (!(total > 0)) return;
-    const Vec3 mean = (1 / total) * way;
     if (const double length = norm(normal); length > 0) normal_[v] = (1 / length) * normal;
-    position_[v] = position_[v] + towards_all(mean, normals, total, normal_[v]);
-    // How far the fits differ shows how far off they are where the shape is finer or sharper than them.
-    const double apart = squares / total - squared_norm(mean),
+    const Vec3 step = towards_all(way, normals, total);
+    position_[v] = position_[v] + step;
+    // How far the fits miss one another there shows how far off they are where the shape is finer or sharper than them.
+    const double apart = (squares - dot(step, way)) / total,
                  shape = (noise_[v] > 0 ? shape_left_beside_noise : shape_left) * spacing_at(v);
     const double variance = std::min(noise / total, usual * usual) - shape * shape;
     sigma_[v] = std::sqrt(std::max(0.0, variance));
