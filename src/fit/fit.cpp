@@ -172,12 +172,13 @@ struct Symmetric {
 /// are about the same.
 /// \param normals weighted sum of n nᵀ \param total of the weights, > 0 \param way weighted sum of the ways to each
 Vec3 towards_all(const Vec3& way, const Symmetric& normals, double total) {
-  const double ridge = least_across * total;
-  const Symmetric m{normals.xx + ridge, normals.xy, normals.xz, normals.yy + ridge, normals.yz, normals.zz + ridge};
+  const double share = 1 / total, ridge = least_across; // shares, for sums can be too small for a third power
+  const Symmetric m{share * normals.xx + ridge, share * normals.xy, share * normals.xz,
+                    share * normals.yy + ridge, share * normals.yz, share * normals.zz + ridge};
   const Symmetric adjugate{m.yy * m.zz - m.yz * m.yz, m.xz * m.yz - m.xy * m.zz, m.xy * m.yz - m.xz * m.yy,
                            m.xx * m.zz - m.xz * m.xz, m.xy * m.xz - m.xx * m.yz, m.xx * m.yy - m.xy * m.xy};
   const double determinant = m.xx * adjugate.xx + m.xy * adjugate.xy + m.xz * adjugate.xz; // > 0: the ridge is
-  return (1 / determinant) * (adjugate * way);
+  return (share / determinant) * (adjugate * way);
 }
 
 /// The middle of the noise, from fits at places spread over the surface.
@@ -360,8 +361,9 @@ class SurfaceFit {
       const double agreement = 1 - ahead * ahead / (far * far);
       if (!(agreement > 0)) continue;
       // Fits across an edge fit badly: they leave the word to those beside it.
-      const double misfit = fit.noise_variance + least_misfit * unit * unit, weight = nearness * agreement / misfit;
+      const double misfit = fit.noise_variance / (unit * unit) + least_misfit, weight = nearness * agreement / misfit;
       const double w = weight * weight / (misfit * misfit * fit.variance);
+      if (!(w > 0)) continue;
       way = way + w * ahead * across;
       normals.add(w, across);
       squares += w * ahead * ahead;

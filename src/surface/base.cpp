@@ -203,6 +203,9 @@ Base close_with_base(Axis front, const SampleModel& model, const Vec3& origin, S
   for (const Vec3& p : outline) heights.push_back(p.z);
   base.level = median(heights);
   for (const Vec3& p : mesh.vertices) base.level = std::min(base.level, frame.to(p).z - gap * model.typical_spacing);
+  if (!(volume_above(mesh, frame, {0, 0, base.level}, middle) > 0))
+    refuse("seen along " + to_string(front) + ", the surface is wider than its rim, and a body on a base inside out",
+           "name another side with --facade, or leave out --base");
 
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   const auto count = static_cast<std::uint32_t>(rim.size());

@@ -66,5 +66,19 @@ TEST(Base, IsRefusedWhereItWouldRoundIntoTheSurface) {
   EXPECT_NE(error_of([&] { on_base(far); }).find("nearer to zero"), std::string::npos);
 }
 
+TEST(Base, IsRefusedBehindAPitWiderThanItsRim) {
+  // 20 wide behind an opening of 8: what the base closes would have a negative volume.
+  Surface pit = square(8);
+  for (Vec3& v : pit.mesh.vertices) {
+    const Vec3 d = v - Vec3{4, 4, 0};
+    const double ring = std::max(std::fabs(d.x), std::fabs(d.y));
+    if (ring == 4 || ring == 0)
+      v.z = ring == 4 ? 0 : -6;
+    else
+      v = Vec3{4, 4, ring == 3 ? -1.0 : -6.0} + (ring == 1 ? 4.0 : 10 / ring) * Vec3{d.x, d.y, 0};
+  }
+  EXPECT_NE(error_of([&] { on_base(pit); }).find("wider than its rim"), std::string::npos);
+}
+
 } // namespace
 } // namespace eigencrust
