@@ -3,6 +3,7 @@
 #include "fit/fit.h"
 
 #include <eigencrust/eigencrust.h>
+#include <eigencrust/metrics.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -321,6 +322,46 @@ TEST(FittedSurface, SharpEdgesOfCleanPartsStayHoweverTheyLie) {
     EXPECT_NEAR(reconstructed(turned(window), SurfaceKind::automatic).report.mesh.area / window_area, 1, 1e-6) << turn;
     EXPECT_NEAR(reconstructed(turned(rail), SurfaceKind::automatic).report.mesh.area / rail_area, 1, 1e-6) << turn;
   }
+}
+
+/// Samples at random places of a cube's six faces, [0, 1]³.
+Points on_cube(std::size_t n, std::uint64_t seed) {
+  clouds::Random random(seed);
+  Points points;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double a = random.uniform(), b = random.uniform(), c = i % 2 == 0 ? 0 : 1;
+    points.push_back(i % 6 < 2 ? Vec3{a, b, c} : i % 6 < 4 ? Vec3{b, c, a} : Vec3{c, a, b});
+  }
+  return points;
+}
+
+TEST(FittedSurface, VerticesBesideAnEdgeGoToWhereItsSidesMeet) {
+  const std::size_t n = 24000;
+  const double spacing = std::sqrt(6.0 / static_cast<double>(n));
+  Points edges;
+  for (double t = 0.05; t < 0.95; t += 0.2 * spacing)
+    for (const double a : {0.0, 1.0})
+      for (const double b : {0.0, 1.0}) {
+        edges.push_back({t, a, b});
+        edges.push_back({a, t, b});
+        edges.push_back({a, b, t});
+      }
+  double sum = 0;
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    const Result result = reconstructed(noisy(on_cube(n, seed), 0.5 * spacing, seed), SurfaceKind::automatic);
+    sum += summarize(distances_to_surface(edges, result.mesh, 2)).mean / spacing;
+  }
+  EXPECT_LT(sum / 3, 0.55);
+}
+
+TEST(FittedSurface, TinyCloudsAreFittedAsLargeOnes) {
+  const Points points = noisy(clouds::sphere(4000), 0.5 * spacing_of(4000), 5);
+  const double error = mean_error(reconstructed(points, SurfaceKind::automatic).mesh, from_unit_sphere);
+  const double scale = std::ldexp(1.0, -40);
+  Points tiny = points;
+  for (Vec3& p : tiny) p = scale * p;
+  const Result result = reconstructed(tiny, SurfaceKind::automatic);
+  EXPECT_NEAR(mean_error(result.mesh, [&](const Vec3& p) { return norm((1 / scale) * p) - 1; }) / error, 1, 0.05);
 }
 
 TEST(FittedSurface, IsTheDefaultButOfThePaper) {
