@@ -35,7 +35,7 @@ namespace {
 // Of smaller arrays there are too many for a file each, and together they are small.
 constexpr std::size_t least_block = std::size_t{1} << 20;
 // Threads that look here and there into arrays in the system's memory fetch a gigabyte in 10 ms, in which the watch may
-// not get a core at all: a quarter to a third of what may be resident is left to that.
+// not get a core at all: two fifths of what may be resident are left to that.
 constexpr std::chrono::milliseconds between_looks(1);
 constexpr double held_at_most = 0.6, held_after = 0.5; ///< of the bytes that may be resident
 constexpr std::size_t given_back_at_once = std::size_t{1} << 25;

@@ -42,9 +42,12 @@ double largest_variance_of_noise(const LocalFrame& frame) {
   return larger > smaller ? smaller * larger / (larger - smaller) : std::numeric_limits<double>::infinity();
 }
 
+/// Is the place no farther from the plane of the neighbourhood than noise explains?
 bool lies_within(const Vec3& place, const LocalFrame& sheet) {
+  constexpr double rounding = 1e-12; // of the squared width: the thickness of an exact plane may come out as 0
   const double height = dot(place - sheet.mean, sheet.axis[0]);
-  return height * height <= static_cast<double>(noise_bound * noise_bound) * sheet.variance[0];
+  return height * height <=
+         static_cast<double>(noise_bound * noise_bound) * sheet.variance[0] + rounding * sheet.variance[1];
 }
 
 } // namespace

@@ -171,6 +171,17 @@ TEST(PlaceModels, PlacesOfFarOutliersAreNotFlat) {
   }
 }
 
+TEST(PlaceModels, TiltedExactPlanesAreFlatEverywhere) {
+  // Their thickness is nothing but rounding.
+  for (const Vec3& shift : {Vec3{}, Vec3{1e6, 2e6, 3e5}}) {
+    Points points;
+    for (const Vec3& p : grid(60)) points.push_back(p.x * Vec3{0.6, 0.48, 0.64} + p.y * Vec3{-0.8, 0.36, 0.48} + shift);
+    const PointTree tree(points);
+    const PlaceModels models(points, tree);
+    EXPECT_TRUE(std::all_of(points.begin(), points.end(), [&](const Vec3& p) { return models.at(p).is_flat; }));
+  }
+}
+
 TEST(SampleModel, AGivenNoiseIsTakenEverywhere) {
   const Ordered o(clouds::sphere(3000), 0.2);
   EXPECT_THAT(o.model.noise.raw(), testing::Each(0.2f));
