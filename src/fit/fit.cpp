@@ -349,7 +349,8 @@ class SurfaceFit {
     Symmetric normals;
     const double unit = std::max(noise_at(v), least_unit_in_spacings * spacing_at(v));
     const double radius = width * unit, flat = 1 / (radius * radius);
-    const double moved = distance(position_[v], surface_.mesh.vertices[v]);
+    const Vec3 strayed = position_[v] - surface_.mesh.vertices[v];
+    const double moved = norm(strayed);
     for (const LocalQuadric* const one : around) {
       const LocalQuadric& fit = *one;
       const double nearness = 1 - squared_norm(fit.origin - position_[v]) * flat;
@@ -369,7 +370,9 @@ class SurfaceFit {
       squares += w * ahead * ahead;
       noise += w * fit.noise_variance;
       error += w * fit.noise_variance * fit.variance;
-      normal = normal + w * across;
+      // Which side of an edge its sample is from says that sample.
+      const double beside = (ahead + dot(across, strayed)) / unit, own = misfit / (misfit + beside * beside);
+      normal = normal + (w * own * own) * across;
       total += w;
     }
     if (!(total > 0)) return;

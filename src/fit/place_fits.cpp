@@ -20,7 +20,7 @@ namespace {
 // In units of the larger of σ and 0.7 spacings; each has twice the samples of the one before.
 constexpr std::array<double, QuadricFit::most_widths> widths{2.83, 4, 5.66, 8, 11.3, 16, 22.6};
 // Cosine: samples of one side.
-constexpr double same_side = 0.5;
+constexpr double same_side = 0.6;
 // Up to so many times the noise that the model knows of is noise; what is more about a narrow fit is shape.
 constexpr double over_model = 1.2;
 // Clusters are as coarse as leaves so many of them in a fit that is compared with others.

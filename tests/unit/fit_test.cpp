@@ -351,7 +351,7 @@ TEST(FittedSurface, VerticesBesideAnEdgeGoToWhereItsSidesMeet) {
     const Result result = reconstructed(noisy(on_cube(n, seed), 0.5 * spacing, seed), SurfaceKind::automatic);
     sum += summarize(distances_to_surface(edges, result.mesh, 2)).mean / spacing;
   }
-  EXPECT_LT(sum / 3, 0.55);
+  EXPECT_LT(sum / 3, 0.47);
 }
 
 TEST(FittedSurface, TinyCloudsAreFittedAsLargeOnes) {
