@@ -26,14 +26,14 @@ constexpr double over_model = 1.2;
 // Clusters are as coarse as leaves so many of them in a fit that is compared with others.
 constexpr double enough_to_choose = 25;
 // What the means over few places leave of the bias counts so much: more leaves noise in, less rounds off what is sharp.
-constexpr double bias_counts = 0.8;
+constexpr double bias_counts = 0.7;
 // A width whose risk is so many times that of another is the last one looked at.
 constexpr double hopeless = 3;
 // In noise of less than so many spacings every third place is looked at; in more each counts.
 constexpr double little_noise = 0.6;
 constexpr std::size_t in_little_noise = 3;
 // Rounds in which the choice is averaged over the neighbours: a single one hangs on the noise at its place.
-constexpr int averaging_rounds = 2;
+constexpr int averaging_rounds = 4;
 // Places are looked at in blocks, each with a memory of its own.
 constexpr std::size_t places_per_block = 512;
 
