@@ -28,6 +28,7 @@
 
 #include "blocks_in_turn.h"
 #include "disk_memory.h"
+#include "pause_threads.h"
 
 namespace eigencrust::cli {
 namespace {
@@ -35,9 +36,9 @@ namespace {
 // Of smaller arrays there are too many for a file each, and together they are small.
 constexpr std::size_t least_block = std::size_t{1} << 20;
 // Threads that look here and there into arrays in the system's memory fetch a gigabyte in 10 ms, in which the watch may
-// not get a core at all: two fifths of what may be resident are left to that.
+// not get a core at all: a part of what may be resident is left to that.
 constexpr std::chrono::milliseconds between_looks(1);
-constexpr double held_at_most = 0.6, held_after = 0.5; ///< of the bytes that may be resident
+constexpr double held_at_most = 0.75, held_after = 0.6; ///< of the bytes that may be resident
 constexpr std::size_t given_back_at_once = std::size_t{1} << 25;
 
 /// Blocks in files.
@@ -76,14 +77,15 @@ std::size_t page_size() {
   return size;
 }
 
-/// Bytes that the process holds in memory; 0 where the system does not tell. Cheap: it is asked all the time.
+/// Bytes that the process holds in memory; 0 where the system does not tell. Cheap, for it is asked all the time, and
+/// allocates nothing, for other threads may be paused.
 std::uint64_t resident_bytes() {
-  std::uint64_t pages = 0;
-  if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
-    if (std::fscanf(file, "%*u %lu", &pages) != 1) pages = 0;
-    std::fclose(file);
-  }
-  return pages * page_size();
+  static const int file = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  std::array<char, 128> text{}; // pages of addresses, of what is held, ...
+  if (file < 0 || pread(file, text.data(), text.size() - 1, 0) <= 0) return 0;
+  char* second = nullptr;
+  std::strtoull(text.data(), &second, 10);
+  return std::strtoull(second, nullptr, 10) * page_size();
 }
 
 int Disk::new_file(std::size_t bytes) {
@@ -93,8 +95,9 @@ int Disk::new_file(std::size_t bytes) {
         folder_ + "/eigencrust-memory-" + std::to_string(getpid()) + "-" + std::to_string(file_number_++);
     file = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
     if (file >= 0) unlink(name.c_str());
-  } while (file < 0 && errno == EEXIST);
-  const int failed = file < 0 ? errno : posix_fallocate(file, 0, static_cast<off_t>(bytes));
+  } while (file < 0 && (errno == EEXIST || errno == EINTR));
+  int failed = EINTR; // threads are paused by a signal
+  while (failed == EINTR) failed = file < 0 ? errno : posix_fallocate(file, 0, static_cast<off_t>(bytes));
   if (failed == 0) return file;
   if (file >= 0) close(file);
   error_ = failed;
@@ -150,6 +153,7 @@ bool Disk::give_back(void* p) {
 /// \return whether any were there to go
 bool Disk::let_go(std::uint64_t until_resident) {
   const std::lock_guard lock(mutex_);
+  const OtherThreadsPaused paused; // they fetch pages several times as fast as they can go
   bool any = false;
   std::uint64_t looked_at = 0;
   for (std::uint64_t held = resident_bytes(); held > until_resident && looked_at < lent_;) {
