@@ -22,11 +22,11 @@ namespace {
 constexpr std::uint32_t least_samples = 100;
 // So many of them are looked at.
 constexpr std::uint32_t looked_at = 2048;
-// Of ground with what stands on it, trees included, up to half of the samples are stacked; of closed bodies three
-// quarters and more.
-constexpr double most_stacked = 0.5, perhaps_stacked = 0.65;
-// Of roofs, hills and crowns of trees from the air, with a hundredth of strays, up to 0.15 are; of a wall with what
-// hangs on it, scanned from the ground, 0.4.
+// Of ground with what stands on it, trees included, up to half of the area is stacked; of closed bodies two thirds and
+// more.
+constexpr double most_stacked = 0.55, perhaps_stacked = 0.65;
+// Of roofs, hills and crowns of trees from the air, with a hundredth of strays, up to 0.15 of the samples are; of a
+// wall with what hangs on it, scanned from the ground, 0.4.
 constexpr double few_stacked = 0.2;
 // Roofs without their walls have four times as much space behind them as in front, ground with objects at most as much.
 constexpr double cap_of_body = 2;
@@ -97,7 +97,11 @@ double unexplained_height(const SampleModel& model, SampleIndex s, double across
          noise_of_two * static_cast<double>(model.noise[s]);
 }
 
-double share_stacked(const Scene& scene, int axis, const Threads& threads) {
+/// How much of what was seen has something above or below it.
+struct StackedShare {
+  double of_samples, of_area;
+};
+StackedShare share_stacked(const Scene& scene, int axis, const Threads& threads) {
   const Tetrahedralization& t = scene.tetrahedralization;
   const SampleModel& model = scene.measures.model;
   // Isolated samples have wide spacings, which would make all columns wide.
@@ -115,7 +119,15 @@ double share_stacked(const Scene& scene, int axis, const Threads& threads) {
         stacked[k].store(true, std::memory_order_relaxed);
     });
   });
-  return static_cast<double>(std::count(stacked.begin(), stacked.end(), true)) / static_cast<double>(stacked.size());
+  double samples = 0, area = 0, all_area = 0;
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    const double side = std::min(static_cast<double>(model.spacing[some[k]]), widest);
+    all_area += side * side;
+    if (!stacked[k]) continue;
+    samples += 1;
+    area += side * side;
+  }
+  return {samples / static_cast<double>(some.size()), area / all_area};
 }
 
 /// How far the hull is from a sample in a direction.
@@ -231,7 +243,7 @@ bool is_seen_from(const Vec3& side, const Tetrahedralization& t, std::span<const
 
 /// Who wants a base says that it is one side. \throws Error{usage} when the samples do not lie so along z
 Surroundings side_for_base(const Scene& scene, const Threads& threads) {
-  if (share_stacked(scene, z, threads) > perhaps_stacked)
+  if (share_stacked(scene, z, threads).of_area > perhaps_stacked)
     throw Error(ErrorKind::usage, "evidence",
                 "--base: the samples do not lie like ground, one above each place of a map",
                 "name the side that was seen, as --facade +z; or leave out --base where the body is closed");
@@ -242,13 +254,13 @@ Surroundings side_for_base(const Scene& scene, const Threads& threads) {
 
 AxisReading read_axis(const Scene& scene, int axis, const Threads& threads) {
   AxisReading reading;
-  reading.stacked = share_stacked(scene, axis, threads);
+  reading.stacked = share_stacked(scene, axis, threads).of_area;
   if (reading.stacked <= most_stacked) reading.cap = cap_of(scene, axis, threads);
   return reading;
 }
 
 bool is_seen_along(const Scene& scene, Axis front, const Threads& threads) {
-  return share_stacked(scene, static_cast<int>(front) / 2, threads) <= few_stacked;
+  return share_stacked(scene, static_cast<int>(front) / 2, threads).of_samples <= few_stacked;
 }
 
 HullSight hull_sight(const Tetrahedralization& t, const VertexStars& stars, std::span<const SightLine> lines,

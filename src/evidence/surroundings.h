@@ -27,8 +27,9 @@ HullSight hull_sight(const Tetrahedralization& tetrahedralization, const VertexS
 
 /// How the samples lie along an axis.
 struct AxisReading {
-  /// Share of the samples that have another one above or below them: within a spacing across the axis, and along it
-  /// farther than twice as far and than spacing and noise explain.
+  /// Share of the area, as many squared spacings as there are samples, whose samples have another one above or below
+  /// them: within a spacing across the axis, and along it farther than twice as far and than spacing and noise explain.
+  /// A face that lies in the plane of a scanner's lines has many times the samples of all others.
   double stacked = 1;
   /// Space between the samples and their hull behind them, over that in front, seen from the positive end. Large where
   /// the samples are the cap of a body, infinite where they are a plane, small where the ground has something on it.

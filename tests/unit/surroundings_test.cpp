@@ -97,6 +97,20 @@ TEST(AxisReading, TellsGroundFromBodies) {
   EXPECT_GT(stacked(plate, z), 0.75); // as far from ground as other bodies
 }
 
+TEST(AxisReading, CountsAreaWhereSamplesLieUnevenly) {
+  // A block whose bottom lies in the plane of a scan line, which sampled all of it; its walls have 5 lines.
+  clouds::Random random(4);
+  Points block;
+  for (int k = 0; k < 4000; ++k) block.push_back({10 * random.uniform(), 10 * random.uniform(), 0});
+  for (int line = 1; line <= 5; ++line)
+    for (int side = 0; side < 4; ++side)
+      for (int k = 0; k < 50; ++k) {
+        const double along = 0.2 * (k + 0.5 * random.uniform()), level = 2 * line + 0.01 * random.uniform();
+        block.push_back(side < 2 ? Vec3{along, 10.0 * side, level} : Vec3{10.0 * (side - 2), along, level});
+      }
+  EXPECT_GT(read_axis(scene_of(block), 2, Threads(2)).stacked, 0.55); // four fifths are walls; of the samples a fifth
+}
+
 TEST(AxisReading, TellsTheCapOfABodyFromGround) {
   const auto cap = [](const std::function<double(double, double)>& height) {
     return read_axis(scene_of(heights(30, height)), 2, Threads(2)).cap;
