@@ -24,7 +24,7 @@ constexpr std::uint32_t least_samples = 100;
 constexpr std::uint32_t looked_at = 2048;
 // Of ground with what stands on it, trees included, up to half of the area is stacked; of closed bodies two thirds and
 // more.
-constexpr double most_stacked = 0.55, perhaps_stacked = 0.65;
+constexpr double most_stacked = 0.5, perhaps_stacked = 0.65;
 // Of roofs, hills and crowns of trees from the air, with a hundredth of strays, up to 0.15 of the samples are; of a
 // wall with what hangs on it, scanned from the ground, 0.4.
 constexpr double few_stacked = 0.2;
