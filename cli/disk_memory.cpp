@@ -28,6 +28,7 @@
 
 #include "blocks_in_turn.h"
 #include "disk_memory.h"
+#include "heap.h"
 #include "pause_threads.h"
 
 namespace eigencrust::cli {
@@ -35,6 +36,8 @@ namespace {
 
 // Of smaller arrays there are too many for a file each, and together they are small.
 constexpr std::size_t least_block = std::size_t{1} << 20;
+// The heap grows by so many larger ones that they see it soon.
+constexpr std::size_t growing_block = std::size_t{1} << 12;
 // Threads that look here and there into arrays in the system's memory fetch a gigabyte in 10 ms, in which the watch may
 // not get a core at all: a part of what may be resident is left to that.
 constexpr std::chrono::milliseconds between_looks(1);
@@ -192,8 +195,11 @@ Disk& disk() {
 void* take(std::size_t bytes, std::size_t alignment) {
   if (bytes >= least_block && disk().is_open()) return disk().take(bytes);
   bytes = std::max<std::size_t>(bytes, 1);
-  if (alignment <= alignof(std::max_align_t)) return std::malloc(bytes);
-  return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+  void* const p = alignment <= alignof(std::max_align_t)
+                      ? std::malloc(bytes)
+                      : std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+  if (bytes >= growing_block) enlarge_new_pages();
+  return p;
 }
 
 void* take_or_throw(std::size_t bytes, std::size_t alignment) {

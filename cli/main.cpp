@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "heap.h"
 #include "process.h"
 
 int main(int argc, char** argv) {

@@ -10,10 +10,6 @@
 #include <stdexcept>
 #include <system_error>
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include "process.h"
 
 #include "disk_memory.h"
@@ -82,14 +78,6 @@ void keep_stream_numbers() {
 }
 
 } // namespace
-
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  mallopt(M_MMAP_MAX, 0);
-  mallopt(M_TRIM_THRESHOLD, -1);
-  mallopt(M_ARENA_MAX, 1);
-#endif
-}
 
 int run_process(int argc, char** argv, Ranks* ranks) {
   keep_stream_numbers();

@@ -7,10 +7,6 @@
 
 namespace eigencrust::cli {
 
-/// Freed arrays stay with the process. Stage after stage takes arrays of the same size, and fresh pages are slow
-/// (docs/decisions/0022). All threads share them: what one frees another may need.
-void keep_freed_memory();
-
 /// All of the command: every error becomes a line and a status.
 /// \param ranks that take over parts of the work; none: this process does all
 /// \return the exit status

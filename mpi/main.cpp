@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command on several machines: mpiexec -n 4 eigencrust-mpi scan.ply -o mesh.ply
+#include "heap.h"
 #include "process.h"
 #include "ranks.h"
 
