@@ -116,21 +116,25 @@ std::vector<std::uint32_t> in_rough_patches(const std::vector<std::uint32_t>& ve
 
 } // namespace
 
-std::vector<std::uint32_t> strays_on_bridges(const Surface& surface, const SurfaceFans& fans,
-                                             const SampleModel& model) {
+std::vector<std::uint32_t> strays_on_bridges(const Surface& surface, const SurfaceFans& fans, const SampleModel& model,
+                                             const Threads& threads) {
   const auto count = static_cast<std::uint32_t>(surface.sample_of.size());
   std::vector<std::uint8_t> is_borne_out(count, 0);
   for (std::size_t i = 0; i < surface.mesh.triangles.size(); ++i)
     if (!surface.unsupported[i])
       for (const std::uint32_t v : surface.mesh.triangles[i]) is_borne_out[v] = 1;
   const double least = distance_of_strays(surface, model);
+  std::vector<std::uint8_t> is_alone(count, 0);
+  if (std::isfinite(least))
+    for_each_index(threads, count, [&](std::size_t v) {
+      is_alone[v] = stands_alone(surface, fans[v], model, least, static_cast<std::uint32_t>(v)) ? 1 : 0;
+    });
   std::vector<std::uint32_t> invented, alone, strays;
   for (std::uint32_t v = 0; v < count; ++v) {
     const bool is_invented = model.isolated[surface.sample_of[v]] > 0 && !is_borne_out[v];
-    const bool is_alone = std::isfinite(least) && stands_alone(surface, fans[v], model, least, v);
-    if ((!is_invented && !is_alone) || fans.at_rim(v)) continue;
+    if ((!is_invented && is_alone[v] == 0) || fans.at_rim(v)) continue;
     if (is_invented) invented.push_back(v);
-    if (is_alone) alone.push_back(v);
+    if (is_alone[v] != 0) alone.push_back(v);
   }
   alone = in_rough_patches(alone, fans, surface.mesh.vertices);
   std::set_union(invented.begin(), invented.end(), alone.begin(), alone.end(), std::back_inserter(strays));

@@ -9,6 +9,7 @@
 
 #include <eigencrust/stages.h>
 
+#include "parallel/threads.h"
 #include "samples/sample_model.h"
 #include "surface/fans.h"
 
@@ -18,7 +19,8 @@ namespace eigencrust {
 /// samples in no triangle that samples bear out (Surface::unsupported); or, where of the isolated samples most are
 /// passed by, in patches of vertices that stand as far from others as those, and that are rougher than a coarse part
 /// would be. None at a rim, and none of pieces of nothing else. Increasing. \param fans of the surface
-std::vector<std::uint32_t> strays_on_bridges(const Surface& surface, const SurfaceFans& fans, const SampleModel& model);
+std::vector<std::uint32_t> strays_on_bridges(const Surface& surface, const SurfaceFans& fans, const SampleModel& model,
+                                             const Threads& threads);
 
 /// Moves all of them to the mean of their neighbours at once, so that the bridge is a membrane between samples that are
 /// not isolated. \param strays increasing; each joined by others to a vertex that is none

@@ -27,6 +27,8 @@ constexpr int edges_around = 10;
 constexpr int smoothing_steps = 5;
 constexpr double tangling_noise_in_spacings = 0.5;
 constexpr int normal_steps = 10;
+// The vertex next to a sample is found from one in so many, along edges.
+constexpr std::size_t in_tree = 2;
 // The second fits start from the places and normals of the first, which may be coarse; a third takes off nothing any
 // more.
 constexpr std::array<FitEffort, 2> efforts{{{25, 3}, {50, 6}}};
@@ -181,6 +183,49 @@ Vec3 towards_all(const Vec3& way, const Symmetric& normals, double total) {
   return (share / determinant) * (adjugate * way);
 }
 
+/// Which vertex is next to a sample: the tree has some of them, from there edges lead on.
+class NearestVertex {
+ public:
+  NearestVertex(std::span<const Vec3> position, const SurfaceFans& fans) : position_(position), fans_(fans) {
+    for (std::size_t v = 0; v < position.size(); v += in_tree) some_.push_back(position[v]);
+    tree_.emplace(some_);
+  }
+
+  [[nodiscard]] std::uint32_t operator()(const Vec3& sample) const {
+    std::array<std::uint32_t, starts> start{};
+    std::array<double, starts> square{};
+    const std::size_t found = tree_->nearest(sample, starts, start.data(), square.data());
+    std::uint32_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < found; ++k) {
+      auto v = static_cast<std::uint32_t>(start[k] * in_tree);
+      double here = square[k];
+      for (bool is_nearer = true; is_nearer;) {
+        is_nearer = false;
+        for (const auto& wing : fans_[v])
+          if (const double there = squared_norm(position_[wing.next] - sample); there < here) {
+            here = there;
+            v = wing.next;
+            is_nearer = true;
+            break;
+          }
+      }
+      if (here < least) {
+        least = here;
+        best = v;
+      }
+    }
+    return best;
+  }
+
+ private:
+  static constexpr std::size_t starts = 2; // of other sides, where a wall is thin
+  std::span<const Vec3> position_;
+  const SurfaceFans& fans_;
+  std::vector<Vec3> some_;
+  std::optional<PointTree> tree_;
+};
+
 /// The middle of the noise, from fits at places spread over the surface.
 class SurfaceFit {
  public:
@@ -198,26 +243,26 @@ class SurfaceFit {
     const std::vector<Vec3> smooth = position_;
     for (std::size_t v = 0; v < position_.size(); ++v)
       if (noise_[v] < 0) position_[v] = surface.mesh.vertices[v]; // it stays, but says which side its sample is on
-    std::optional<PointTree> tree;
+    std::optional<NearestVertex> nearest;
     threads.run(2, [&](std::size_t k) { // one thread builds the tree
       if (k == 0)
-        tree.emplace(position_);
+        nearest.emplace(position_, fans);
       else
         normal_ = averaged_normals(smooth, fans, threads);
     });
-    vertex_of_ = vertices_of_samples(*tree);
+    vertex_of_ = vertices_of_samples(*nearest);
   }
 
   std::vector<Vec3> run() {
     ClusterPyramid clusters(fans_, position_, normal_, samples_, vertex_of_, threads_);
     for (const FitEffort& effort : efforts) {
+      if (&effort != efforts.data()) clusters.set_normals(normal_, threads_);
       const FitPlaces places = make_places(clusters);
       if (chosen_.width.empty()) {
         chosen_ = chosen_widths(places, clusters, threads_);
         find_usual_noise(clusters);
       }
       move(clusters, fits_of_widths(places, clusters, chosen_.width, effort, threads_));
-      clusters.set_normals(normal_, threads_);
     }
     std::vector<Vec3> result = surface_.mesh.vertices;
     for (std::size_t v = 0; v < result.size(); ++v)
@@ -246,17 +291,14 @@ class SurfaceFit {
   }
 
   /// Samples are on the side of the vertex next to them; those farther off than noise explains are on none.
-  [[nodiscard]] std::vector<std::uint32_t> vertices_of_samples(const PointTree& tree) const {
+  [[nodiscard]] std::vector<std::uint32_t> vertices_of_samples(const NearestVertex& nearest) const {
     std::vector<std::uint32_t> vertex_of(samples_.size(), ClusterPyramid::no_vertex);
     for (std::uint32_t v = 0; v < position_.size(); ++v) vertex_of[surface_.sample_of[v].value] = v;
     for_each_index(
         threads_, samples_.size(),
         [&](std::size_t s) {
           std::uint32_t v = vertex_of[s];
-          if (v == ClusterPyramid::no_vertex) {
-            double square = 0;
-            tree.nearest(samples_[s], 1, &v, &square);
-          }
+          if (v == ClusterPyramid::no_vertex) v = nearest(samples_[s]);
           const double beside = std::fabs(dot(samples_[s] - position_[v], normal_[v]));
           const double far = static_cast<double>(noise_bound) * noise_at(v) + spacing_at(v);
           vertex_of[s] = beside < far ? v : ClusterPyramid::no_vertex;
@@ -347,8 +389,8 @@ class SurfaceFit {
     double total = 0, squares = 0, noise = 0, error = 0;
     Vec3 way, normal;
     Symmetric normals;
-    const double unit = std::max(noise_at(v), least_unit_in_spacings * spacing_at(v));
-    const double radius = width * unit, flat = 1 / (radius * radius);
+    const double spacing = spacing_at(v), unit = std::max(noise_at(v), least_unit_in_spacings * spacing);
+    const double radius = width * unit, flat = 1 / (radius * radius), per_square = 1 / (unit * unit);
     const Vec3 strayed = position_[v] - surface_.mesh.vertices[v];
     const double moved = norm(strayed);
     for (const LocalQuadric* const one : around) {
@@ -358,12 +400,12 @@ class SurfaceFit {
       // Along the normal of the fit: along another one what lies beside an edge would slide beyond it.
       const auto [ahead, across] = fit.foot(position_[v]);
       // A surface farther off than that is another side, whose edge with this one is not here.
-      const double far = moved + spacing_at(v) + 2 * std::sqrt(fit.noise_variance);
+      const double far = moved + spacing + 2 * std::sqrt(fit.noise_variance);
       const double agreement = 1 - ahead * ahead / (far * far);
       if (!(agreement > 0)) continue;
       // Fits across an edge fit badly: they leave the word to those beside it.
-      const double misfit = fit.noise_variance / (unit * unit) + least_misfit, weight = nearness * agreement / misfit;
-      const double w = weight * weight / (misfit * misfit * fit.variance);
+      const double misfit = fit.noise_variance * per_square + least_misfit, square = misfit * misfit;
+      const double word = nearness * agreement, w = word * word / (square * square * fit.variance);
       if (!(w > 0)) continue;
       way = way + w * ahead * across;
       normals.add(w, across);
@@ -371,7 +413,7 @@ class SurfaceFit {
       noise += w * fit.noise_variance;
       error += w * fit.noise_variance * fit.variance;
       // Which side of an edge its sample is from says that sample.
-      const double beside = (ahead + dot(across, strayed)) / unit, own = misfit / (misfit + beside * beside);
+      const double beside = ahead + dot(across, strayed), own = misfit / (misfit + beside * beside * per_square);
       normal = normal + (w * own * own) * across;
       total += w;
     }
@@ -381,7 +423,7 @@ class SurfaceFit {
     position_[v] = position_[v] + step;
     // How far the fits miss one another there shows how far off they are where the shape is finer or sharper than them.
     const double apart = (squares - dot(step, way)) / total,
-                 shape = (noise_[v] > 0 ? shape_left_beside_noise : shape_left) * spacing_at(v);
+                 shape = (noise_[v] > 0 ? shape_left_beside_noise : shape_left) * spacing;
     const double variance = std::min(noise / total, usual * usual) - shape * shape;
     sigma_[v] = std::sqrt(std::max(0.0, variance));
     trust_[v] = variance > 0 ? variance / (variance + std::max(0.0, apart - error / total)) : 0;

@@ -68,7 +68,7 @@ class Neighbourhood {
   /// \return how many there are
   std::size_t walk(const ClusterLevel& level, std::size_t below, std::uint32_t start, const Vec3& origin,
                    const Vec3& normal, double radius) {
-    std::vector<std::uint64_t>& seen_in = seen_in_[below];
+    std::vector<std::uint32_t>& seen_in = seen_in_[below];
     seen_in.resize(level.place.size(), 0);
     ++round_;
     way_[0] = start;
@@ -95,8 +95,8 @@ class Neighbourhood {
     return ways;
   }
 
-  std::array<std::vector<std::uint64_t>, ClusterPyramid::most_levels> seen_in_; ///< of each cluster the last round
-  std::uint64_t round_ = 0;
+  std::array<std::vector<std::uint32_t>, ClusterPyramid::most_levels> seen_in_; ///< of each cluster the last round
+  std::uint32_t round_ = 0;                                                     // fewer than there are places, by far
   std::array<std::uint32_t, most + 1> way_, fresh_;
   std::vector<const SampleCluster*> found_;
 };

@@ -44,7 +44,7 @@ ClusterPyramid::ClusterPyramid(const SurfaceFans& fans, std::span<const Vec3> po
   for (std::size_t s = 0; s < samples.size(); ++s)
     if (vertex_of[s] != no_vertex) base.cluster[vertex_of[s]].add({samples[s], {}, 1});
   base.normal = std::move(normal);
-  base.neighbours = build_rows<std::uint32_t>(threads, base.cluster.size(), long_block, [&fans] {
+  base.neighbours = build_rows<std::uint32_t>(threads, base.cluster.size(), default_block, [&fans] {
     return [&fans](std::size_t v, std::vector<std::uint32_t>& row) {
       for (const auto& wing : fans[v]) row.push_back(wing.next);
     };
@@ -96,7 +96,7 @@ ClusterLevel ClusterPyramid::coarser(ClusterLevel& fine, const Threads& threads)
       row.erase(std::unique(row.begin() + begin, row.end()), row.end());
     };
   };
-  coarse.neighbours = build_rows<std::uint32_t>(threads, coarse.seed.size(), long_block, neighbours);
+  coarse.neighbours = build_rows<std::uint32_t>(threads, coarse.seed.size(), default_block, neighbours);
   return coarse;
 }
 

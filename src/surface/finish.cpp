@@ -152,7 +152,7 @@ bool move_vertices(Surface& surface, const PointCloud& cloud, const Scene& scene
       fans.emplace(surface.mesh);
       // What a scanner saw is somewhere, however lonely it is.
       if (cloud.sensor_of.empty() && !scene.measures.trusts_all)
-        strays = strays_on_bridges(surface, *fans, scene.measures.model);
+        strays = strays_on_bridges(surface, *fans, scene.measures.model, threads);
       fitted = fit(surface, *fans, scene, options.surface, strays, threads);
     });
   if (!fitted && options.smooth == 0) return false;
