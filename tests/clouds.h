@@ -92,6 +92,33 @@ inline Points sphere(std::size_t n, double radius = 1, const Vec3& centre = {}) 
 }
 
 /// Every coordinate moved by up to `size` either way.
+/// A plate with nx times ny windows of 8 by 12, 8 from one another and from the rim; one point at random for each unit
+/// of its area.
+inline Points plate_with_windows(unsigned nx, unsigned ny, double thickness, std::uint64_t seed) {
+  constexpr double bar = 8, width = 8, height = 12;
+  const double x_end = bar + nx * (width + bar), y_end = bar + ny * (height + bar);
+  Random random(seed);
+  Points points;
+  const auto cover = [&](const Vec3& corner, const Vec3& u, const Vec3& v) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(norm(u) * norm(v)); ++k)
+      points.push_back(corner + random.uniform() * u + random.uniform() * v);
+  };
+  const auto rim = [&](double x, double y, double dx, double dy) {
+    const Vec3 up{0, 0, thickness};
+    for (const double side : {0.0, 1.0}) {
+      cover({x, y + side * dy, 0}, {dx, 0, 0}, up);
+      cover({x + side * dx, y, 0}, {0, dy, 0}, up);
+    }
+  };
+  for (const double z : {0.0, thickness}) cover({0, 0, z}, {x_end, 0, 0}, {0, y_end, 0});
+  std::erase_if(points,
+                [&](const Vec3& p) { return std::fmod(p.x, bar + width) > bar && std::fmod(p.y, bar + height) > bar; });
+  rim(0, 0, x_end, y_end);
+  for (unsigned i = 0; i < nx; ++i)
+    for (unsigned j = 0; j < ny; ++j) rim(bar + i * (bar + width), bar + j * (bar + height), width, height);
+  return points;
+}
+
 inline Points jittered(Points points, double size, std::uint64_t seed) {
   Random random(seed);
   for (Vec3& p : points) p = p + random.in_box(size);

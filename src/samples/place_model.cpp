@@ -93,9 +93,11 @@ PlaceModel PlaceModels::at(const Vec3& place) const {
 PlaceModel PlaceModels::flat_at(const Vec3& place) const {
   std::array<std::uint32_t, sizes.back()> index{};
   std::array<double, sizes.back()> square{};
+  double square_of_reach = 0; // of 30 neighbours
   const auto neighbours = [&](std::size_t level) -> std::span<const std::uint32_t> {
     if (level == 0) {
       const std::size_t found = tree_.nearest(place, sizes.back(), index.data(), square.data());
+      square_of_reach = square[std::min(found, sizes[1]) - 1];
       return std::span(index).first(std::min(found, sizes[0]));
     }
     if (level < sizes.size()) return std::span(index).first(std::min(positions_.size(), sizes[level]));
@@ -117,7 +119,11 @@ PlaceModel PlaceModels::flat_at(const Vec3& place) const {
     if (is_flat && level > 0) {
       // Large neighbourhoods of far strays reach the object, which looks flat from there.
       if (!lies_within(place, frame)) return {};
-      if (const auto deviation = deviation_within_sheets(points(level), around, frame)) return {true, *deviation};
+      if (const auto sheets = two_sheets(points(level), around, frame)) {
+        // What lies between sheets that are seen one by one from nearby are walls of holes and ribs.
+        if (level >= sizes.size() && sheets->gap * sheets->gap > square_of_reach) return {};
+        return {true, sheets->deviation};
+      }
       // A few samples lie in a plane by chance; the next larger neighbourhood has to agree.
       if (inner->is_flat()) {
         if (level > 1 && is_smooth_up_close(points(level), around)) return {true, 0};

@@ -84,8 +84,8 @@ double best_split(std::vector<double> z) {
 
 } // namespace
 
-std::optional<double> deviation_within_sheets(std::span<const Vec3> points, std::span<const std::uint32_t> index,
-                                              const LocalFrame& frame) {
+std::optional<TwoSheets> two_sheets(std::span<const Vec3> points, std::span<const std::uint32_t> index,
+                                    const LocalFrame& frame) {
   if (!(frame.variance[1] > 0)) return std::nullopt;
   SheetFit sheets(points, index, frame);
   double gap = sheets.fit();
@@ -106,7 +106,7 @@ std::optional<double> deviation_within_sheets(std::span<const Vec3> points, std:
   if (static_cast<double>(std::min(upper, sheets.size() - upper)) < least) return std::nullopt;
   const double within = sheets.deviation();
   if (!(gap > least_gap_in_deviations * within)) return std::nullopt;
-  return within;
+  return TwoSheets{gap, within};
 }
 
 } // namespace eigencrust

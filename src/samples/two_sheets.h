@@ -10,11 +10,15 @@
 
 namespace eigencrust {
 
-/// The standard deviation within each of two parallel sheets, if the points lie in two: their offsets from a common
-/// quadric fall into halves (least squares) whose means are more than 5 deviations apart. Noise about one sheet gives
-/// 2.65 (Gaussian) to 3.5 (uniform), two walls 9 and more.
-/// \param index points of a flat neighbourhood, 30 or more; \param frame theirs
-std::optional<double> deviation_within_sheets(std::span<const Vec3> points, std::span<const std::uint32_t> index,
-                                              const LocalFrame& frame);
+struct TwoSheets {
+  double gap;       ///< between their means
+  double deviation; ///< standard deviation within each
+};
+
+/// Two parallel sheets, if the points lie in two: their offsets from a common quadric fall into halves (least squares)
+/// whose means are more than 5 deviations apart. Noise about one sheet gives 2.65 (Gaussian) to 3.5 (uniform), two
+/// walls 9 and more. \param index points of a flat neighbourhood, 30 or more; \param frame theirs
+std::optional<TwoSheets> two_sheets(std::span<const Vec3> points, std::span<const std::uint32_t> index,
+                                    const LocalFrame& frame);
 
 } // namespace eigencrust

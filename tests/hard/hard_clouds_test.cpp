@@ -74,6 +74,13 @@ Points noisy_disc_over_a_ball() {
     return p + sigma * Vec3{gaussian(random), gaussian(random), gaussian(random)};
   });
 }
+/// With 24 windows, and noise.
+Points noisy_plate_with_windows() {
+  clouds::Random random(2);
+  return mapped(clouds::plate_with_windows(6, 4, 5.5, 1), [&](const Vec3& p) {
+    return p + 0.4 * Vec3{gaussian(random), gaussian(random), gaussian(random)};
+  });
+}
 /// `lines` half circles from pole to pole with `n` points each.
 Points meridians(unsigned lines, unsigned n) {
   Points points;
@@ -188,6 +195,8 @@ std::vector<HardCloud> of_odd_samplings() {
       {"TubeThatIsHardlyThickerThanItsNoise",
        [] { return clouds::jittered(clouds::torus(1, 0.3, 160, 50), 0.09, 7); },
        {{}, 2 * pi * pi * 0.09, 0.013, 1, 1}},
+      // The walls of the windows are no noise, and handles that thick are meant.
+      {"WindowsInANoisyPlate", noisy_plate_with_windows, {{}, (104 * 88 - 24 * 8 * 12) * 5.5, 0.02, 1, 24}},
       // Between the two only the poles know; the mean planes of the disc's rim do not.
       {"NoisyDiscOverABall", noisy_disc_over_a_ball,
        told(ball * (1 + 0.6 * 0.25 * 0.09), 0.01, "noise is larger than", 2)},

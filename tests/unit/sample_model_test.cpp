@@ -103,6 +103,16 @@ TEST(SampleModel, ThinRodsAreNoNoise) {
   EXPECT_THAT(o.model.plane, testing::IsEmpty());
 }
 
+TEST(SampleModel, WallsOfHolesAreNoNoise) {
+  // Wide neighbourhoods see two sheets, and the walls of the windows between them.
+  for (const double thickness : {5.25, 5.5, 5.75, 6.0}) {
+    clouds::Random random(3);
+    Points plate = clouds::plate_with_windows(6, 4, thickness, 1);
+    for (Vec3& p : plate) p = p + 0.3 * Vec3{deviate(random), deviate(random), deviate(random)};
+    EXPECT_NEAR(static_cast<double>(middle(Ordered(plate).model.noise.raw())), 0.3, 0.15) << thickness; // 0.8 with them
+  }
+}
+
 TEST(SampleModel, PartsSideBySideAreNoNoise) {
   // A body with two legs, five deviations thick and side by side: together they are flat.
   constexpr double sigma = 1;
@@ -234,10 +244,10 @@ TEST(SampleModel, MeanPlanesLieInTheMiddleOfTheNoise) {
   EXPECT_GT(tilt / static_cast<double>(planes), 0.97);
 }
 
-std::optional<double> sheets(const Points& points) {
+std::optional<TwoSheets> sheets(const Points& points) {
   std::vector<std::uint32_t> all(points.size());
   std::iota(all.begin(), all.end(), 0u);
-  return deviation_within_sheets(points, all, local_frame(points, all, points[0]));
+  return two_sheets(points, all, local_frame(points, all, points[0]));
 }
 
 TEST(TwoSheets, AreToldFromNoiseAndFromCurvature) {
@@ -252,9 +262,10 @@ TEST(TwoSheets, AreToldFromNoiseAndFromCurvature) {
   }
   EXPECT_FALSE(sheets(noise).has_value());
   ASSERT_TRUE(sheets(two).has_value());
-  EXPECT_NEAR(*sheets(two), 0.1, 0.03);
+  EXPECT_NEAR(sheets(two)->deviation, 0.1, 0.03);
+  EXPECT_NEAR(sheets(two)->gap, 1.5, 0.1);
   ASSERT_TRUE(sheets(bent).has_value());
-  EXPECT_NEAR(*sheets(bent), 0.1, 0.03);
+  EXPECT_NEAR(sheets(bent)->deviation, 0.1, 0.03);
 }
 
 TEST(TwoSheets, AFewStrayPointsAreNone) {
