@@ -38,7 +38,8 @@ void keep_freed_memory() {
 
 void enlarge_new_pages() {
   const std::uintptr_t end = end_of_heap();
-  if (begin_of_heap == 0 || last_end.exchange(end, std::memory_order_relaxed) == end) return;
+  if (begin_of_heap == 0 || last_end.load(std::memory_order_relaxed) == end) return;
+  last_end.store(end, std::memory_order_relaxed);
   madvise(reinterpret_cast<void*>(begin_of_heap), end - begin_of_heap, MADV_HUGEPAGE);
 }
 
