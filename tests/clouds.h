@@ -91,7 +91,6 @@ inline Points sphere(std::size_t n, double radius = 1, const Vec3& centre = {}) 
   return points;
 }
 
-/// Every coordinate moved by up to `size` either way.
 /// A plate with nx times ny windows of 8 by 12, 8 from one another and from the rim; one point at random for each unit
 /// of its area.
 inline Points plate_with_windows(unsigned nx, unsigned ny, double thickness, std::uint64_t seed) {
@@ -119,6 +118,7 @@ inline Points plate_with_windows(unsigned nx, unsigned ny, double thickness, std
   return points;
 }
 
+/// Every coordinate moved by up to `size` either way.
 inline Points jittered(Points points, double size, std::uint64_t seed) {
   Random random(seed);
   for (Vec3& p : points) p = p + random.in_box(size);

@@ -198,20 +198,9 @@ class NearestVertex {
     std::uint32_t best = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < found; ++k) {
-      auto v = static_cast<std::uint32_t>(start[k] * in_tree);
-      double here = square[k];
-      for (bool is_nearer = true; is_nearer;) {
-        is_nearer = false;
-        for (const auto& wing : fans_[v])
-          if (const double there = squared_norm(position_[wing.next] - sample); there < here) {
-            here = there;
-            v = wing.next;
-            is_nearer = true;
-            break;
-          }
-      }
-      if (here < least) {
-        least = here;
+      const std::uint32_t v = along_edges(static_cast<std::uint32_t>(start[k] * in_tree), sample);
+      if (const double square_here = squared_norm(position_[v] - sample); square_here < least) {
+        least = square_here;
         best = v;
       }
     }
@@ -219,6 +208,20 @@ class NearestVertex {
   }
 
  private:
+  /// From vertex to vertex while a neighbour is nearer.
+  [[nodiscard]] std::uint32_t along_edges(std::uint32_t v, const Vec3& sample) const {
+    double least = squared_norm(position_[v] - sample);
+    for (std::uint32_t from = ClusterPyramid::no_vertex; from != v;) {
+      from = v;
+      for (const auto& wing : fans_[from])
+        if (const double square = squared_norm(position_[wing.next] - sample); square < least) {
+          least = square;
+          v = wing.next;
+        }
+    }
+    return v;
+  }
+
   static constexpr std::size_t starts = 2; // of other sides, where a wall is thin
   std::span<const Vec3> position_;
   const SurfaceFans& fans_;
@@ -256,9 +259,10 @@ class SurfaceFit {
   std::vector<Vec3> run() {
     ClusterPyramid clusters(fans_, position_, normal_, samples_, vertex_of_, threads_);
     for (const FitEffort& effort : efforts) {
-      if (&effort != efforts.data()) clusters.set_normals(normal_, threads_);
+      const bool is_first = chosen_.width.empty();
+      if (!is_first) clusters.set_normals(normal_, threads_);
       const FitPlaces places = make_places(clusters);
-      if (chosen_.width.empty()) {
+      if (is_first) {
         chosen_ = chosen_widths(places, clusters, threads_);
         find_usual_noise(clusters);
       }

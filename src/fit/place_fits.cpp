@@ -96,7 +96,7 @@ class Neighbourhood {
   }
 
   std::array<std::vector<std::uint32_t>, ClusterPyramid::most_levels> seen_in_; ///< of each cluster the last round
-  std::uint32_t round_ = 0;                                                     // fewer than there are places, by far
+  std::uint32_t round_ = 0; // a few for each place, of which there are 2^28 at most
   std::array<std::uint32_t, most + 1> way_, fresh_;
   std::vector<const SampleCluster*> found_;
 };
