@@ -17,6 +17,9 @@ namespace {
 // Noise makes tunnels and bridges as wide as this at most, in deviations. Closing one turns faces over a disc of that
 // radius, two for each sample, which cost about one each: g = 2π (16 σ / h)².
 constexpr double noise_reach = 16;
+// In spacings: no wider, however strong the noise. Its samples fill a band then, in which a tunnel or bridge of noise
+// is some tetrahedra wide. What costs more to close goes through something that is there: a bar, a window.
+constexpr double widest_reach = 5;
 // In spacings. Samples show a tunnel where they stand at half of its radius (Amenta and Bern's r = 1/2), 4π around it:
 // a narrower one may be a gap between them. A wider one is meant.
 constexpr double sampling_reach = 2;
@@ -116,7 +119,7 @@ class HandleClosing {
       noise += static_cast<double>(model.noise[SampleIndex{s}]);
       spacing += static_cast<double>(model.spacing[SampleIndex{s}]);
     }
-    const double reach = std::max(noise_reach * noise / spacing, sampling_reach);
+    const double reach = std::clamp(noise_reach * noise / spacing, sampling_reach, widest_reach);
     const bool is_meant = static_cast<double>(loop.size()) > 2 * std::numbers::pi * reach;
     return is_meant ? 0 : 2 * std::numbers::pi * reach * reach;
   }

@@ -3,6 +3,8 @@
 #include <eigencrust/eigencrust.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -79,6 +81,36 @@ Points noisy_plate_with_windows() {
   clouds::Random random(2);
   return mapped(clouds::plate_with_windows(6, 4, 5.5, 1), [&](const Vec3& p) {
     return p + 0.4 * Vec3{gaussian(random), gaussian(random), gaussian(random)};
+  });
+}
+/// One point at random for each unit of the area of boxes that touch.
+Points boxes(const std::vector<std::array<Vec3, 2>>& all, clouds::Random& random) {
+  Points points;
+  for (const auto& [lo, hi] : all) {
+    const Vec3 size = hi - lo;
+    const auto cover = [&](const Vec3& u, const Vec3& v) {
+      for (const Vec3& corner : {lo, hi - u - v})
+        for (std::size_t k = 0; k < static_cast<std::size_t>(norm(u) * norm(v)); ++k)
+          points.push_back(corner + random.uniform() * u + random.uniform() * v);
+    };
+    cover({size.x, 0, 0}, {0, size.y, 0});
+    cover({0, size.y, 0}, {0, 0, size.z});
+    cover({size.x, 0, 0}, {0, 0, size.z});
+  }
+  return kept(std::move(points), [&](const Vec3& p) {
+    return std::count_if(all.begin(), all.end(), [&](const auto& box) {
+             const auto& [lo, hi] = box;
+             return p.x >= lo.x && p.x <= hi.x && p.y >= lo.y && p.y <= hi.y && p.z >= lo.z && p.z <= hi.z;
+           }) < 2;
+  });
+}
+/// Five bars on a slab, as thick as seven deviations of the noise, with a rail on top.
+Points noisy_railing() {
+  std::vector<std::array<Vec3, 2>> parts{{Vec3{0, -7, 0}, Vec3{65, 12, 8}}, {Vec3{0, 0, 28}, Vec3{65, 5, 33}}};
+  for (double x = 0; x < 65; x += 15) parts.push_back({Vec3{x, 0, 8}, Vec3{x + 5, 5, 28}});
+  clouds::Random random(2);
+  return mapped(boxes(parts, random), [&](const Vec3& p) {
+    return p + 0.7 * Vec3{gaussian(random), gaussian(random), gaussian(random)};
   });
 }
 /// `lines` half circles from pole to pole with `n` points each.
@@ -227,6 +259,8 @@ std::vector<HardCloud> of_noise() {
        {{}, 2 * pi * pi * 0.09, 0.013, 1, 1}},
       // The walls of the windows are no noise, and handles that thick are meant.
       {"WindowsInANoisyPlate", noisy_plate_with_windows, {{}, (104 * 88 - 24 * 8 * 12) * 5.5, 0.02, 1, 24}},
+      // What costs more to cut than a bridge of noise is there.
+      {"BarsInNoise", noisy_railing, {{}, 65 * 19 * 8 + 65 * 5 * 5 + 5 * 5 * 5 * 20, 0.02, 1, 4}},
       // Between the two only the poles know; the mean planes of the disc's rim do not.
       {"NoisyDiscOverABall", noisy_disc_over_a_ball,
        told(ball * (1 + 0.6 * 0.25 * 0.09), 0.01, "noise is larger than", 2)},
