@@ -15,8 +15,8 @@ function(eigencrust_flags target)
   if(EIGENCRUST_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${EIGENCRUST_SANITIZE} -fno-omit-frame-pointer
                                              -fno-sanitize-recover=all)
-    # With GCC these two take as long to compile as all others together. A null pointer that is followed is seen by the
-    # address sanitizer; misaligned ones come from the bytes of files, so that the readers keep both.
+    # With GCC these two are a quarter of the time of compiling, in some files half. A null pointer that is followed is
+    # seen by the address sanitizer; misaligned ones come from the bytes of files, so that the readers keep both.
     if(EIGENCRUST_SANITIZE MATCHES "undefined" AND NOT target STREQUAL "eigencrust_io")
       target_compile_options(${target} PRIVATE -fno-sanitize=null,alignment)
     endif()

@@ -91,6 +91,12 @@ inline Points sphere(std::size_t n, double radius = 1, const Vec3& centre = {}) 
   return points;
 }
 
+/// One point at random for each unit of a rectangle's area.
+inline void cover(const Vec3& corner, const Vec3& u, const Vec3& v, Random& random, Points& points) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(norm(u) * norm(v)); ++k)
+    points.push_back(corner + random.uniform() * u + random.uniform() * v);
+}
+
 /// A plate with nx times ny windows of 8 by 12, 8 from one another and from the rim; one point at random for each unit
 /// of its area.
 inline Points plate_with_windows(unsigned nx, unsigned ny, double thickness, std::uint64_t seed) {
@@ -98,18 +104,14 @@ inline Points plate_with_windows(unsigned nx, unsigned ny, double thickness, std
   const double x_end = bar + nx * (width + bar), y_end = bar + ny * (height + bar);
   Random random(seed);
   Points points;
-  const auto cover = [&](const Vec3& corner, const Vec3& u, const Vec3& v) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(norm(u) * norm(v)); ++k)
-      points.push_back(corner + random.uniform() * u + random.uniform() * v);
-  };
   const auto rim = [&](double x, double y, double dx, double dy) {
     const Vec3 up{0, 0, thickness};
     for (const double side : {0.0, 1.0}) {
-      cover({x, y + side * dy, 0}, {dx, 0, 0}, up);
-      cover({x + side * dx, y, 0}, {0, dy, 0}, up);
+      cover({x, y + side * dy, 0}, {dx, 0, 0}, up, random, points);
+      cover({x + side * dx, y, 0}, {0, dy, 0}, up, random, points);
     }
   };
-  for (const double z : {0.0, thickness}) cover({0, 0, z}, {x_end, 0, 0}, {0, y_end, 0});
+  for (const double z : {0.0, thickness}) cover({0, 0, z}, {x_end, 0, 0}, {0, y_end, 0}, random, points);
   std::erase_if(points,
                 [&](const Vec3& p) { return std::fmod(p.x, bar + width) > bar && std::fmod(p.y, bar + height) > bar; });
   rim(0, 0, x_end, y_end);

@@ -88,14 +88,12 @@ Points boxes(const std::vector<std::array<Vec3, 2>>& all, clouds::Random& random
   Points points;
   for (const auto& [lo, hi] : all) {
     const Vec3 size = hi - lo;
-    const auto cover = [&](const Vec3& u, const Vec3& v) {
-      for (const Vec3& corner : {lo, hi - u - v})
-        for (std::size_t k = 0; k < static_cast<std::size_t>(norm(u) * norm(v)); ++k)
-          points.push_back(corner + random.uniform() * u + random.uniform() * v);
+    const auto both_sides = [&](const Vec3& u, const Vec3& v) {
+      for (const Vec3& corner : {lo, hi - u - v}) clouds::cover(corner, u, v, random, points);
     };
-    cover({size.x, 0, 0}, {0, size.y, 0});
-    cover({0, size.y, 0}, {0, 0, size.z});
-    cover({size.x, 0, 0}, {0, 0, size.z});
+    both_sides({size.x, 0, 0}, {0, size.y, 0});
+    both_sides({0, size.y, 0}, {0, 0, size.z});
+    both_sides({size.x, 0, 0}, {0, 0, size.z});
   }
   return kept(std::move(points), [&](const Vec3& p) {
     return std::count_if(all.begin(), all.end(), [&](const auto& box) {
