@@ -23,14 +23,14 @@ TriangleMesh read_anything(const std::string& path, bool as_points) {
 }
 
 /// What the command line says of a picture.
-struct Request {
+struct RenderRequest {
   std::vector<std::string> inputs, views;
   std::string output, up = "y", frame = "bulk", clip_normal, clip_point;
   bool as_points = false, no_colors = false, own_frame = false;
   RenderOptions options;
 };
 
-void add_options(OptionTable& app, Request& r) {
+void add_options(OptionTable& app, RenderRequest& r) {
   RenderOptions& options = r.options;
   app.begin_chapter("Picture");
   app.add_option("MESH", r.inputs, "Mesh or point cloud; several are put side by side, in one frame")
@@ -68,7 +68,7 @@ void add_options(OptionTable& app, Request& r) {
 }
 
 /// \throws Error for what cannot be made or written, before anything is read
-std::vector<RenderOptions> check_request(Request& r) {
+std::vector<RenderOptions> check_request(RenderRequest& r) {
   RenderOptions& options = r.options;
   const double sign = r.up.front() == '-' ? -1 : 1;
   options.up = r.up.back() == 'x' ? Vec3{sign, 0, 0} : r.up.back() == 'y' ? Vec3{0, sign, 0} : Vec3{0, 0, sign};
@@ -86,7 +86,7 @@ std::vector<RenderOptions> check_request(Request& r) {
 } // namespace
 
 int render_verb(const Arguments& arguments) {
-  Request request;
+  RenderRequest request;
   OptionTable app("A picture of a mesh or a cloud without a display. Back faces are red, so that inside-out is seen.",
                   "eigencrust render");
   add_options(app, request);

@@ -21,7 +21,7 @@ namespace {
 
 // Walls lean by at most 30°, windows set back and ledges included, and turn by less from one hull triangle to the next
 // and to their samples: sine and cosine.
-constexpr double most_leaning = 0.5, least_cosine = 0.866;
+constexpr double most_leaning_wall = 0.5, one_wall = 0.866;
 // What is before a wall is looked at so many spacings deep, as far as no other surface is met: past what the wall
 // itself hides before its windows.
 constexpr double far_before = 40;
@@ -46,8 +46,8 @@ class Walls {
     std::array<double, enough_around> square{};
     const std::size_t found = tree_.nearest(p, around.size(), around.data(), square.data());
     const LocalFrame frame = local_frame(samples_of(t), std::span(around).first(found), p);
-    if (!frame.is_flat() || std::fabs(dot(frame.axis[0], front_)) > most_leaning) return std::nullopt;
-    if (std::fabs(dot(frame.axis[0], outward)) < least_cosine * norm(outward)) return std::nullopt; // across the rim
+    if (!frame.is_flat() || std::fabs(dot(frame.axis[0], front_)) > most_leaning_wall) return std::nullopt;
+    if (std::fabs(dot(frame.axis[0], outward)) < one_wall * norm(outward)) return std::nullopt; // across the rim
     const auto spacing = static_cast<double>(scene_.measures.model.spacing[s]);
     const double reach = dot(frame.axis[0], outward) > 0 ? -far_before * spacing : far_before * spacing;
     double balance = 0;
@@ -73,7 +73,7 @@ std::vector<UprightTriangle> upright_triangles(const Tetrahedralization& t, cons
   std::vector<UprightTriangle> upright;
   for_each_hull_triangle(t, [&](const HullTriangle& hull) {
     // A triangle without area has no direction; it would join sides that are not one.
-    if (std::fabs(dot(hull.outward, front)) < most_leaning * norm(hull.outward)) upright.push_back({hull});
+    if (std::fabs(dot(hull.outward, front)) < most_leaning_wall * norm(hull.outward)) upright.push_back({hull});
   });
   return upright;
 }
@@ -89,7 +89,7 @@ DisjointSets sides_of_hull(const std::vector<UprightTriangle>& upright, std::siz
   for_each_edge(std::span<const Side>(sides), [&](std::span<const Side> edge) {
     if (edge.size() < 2) return; // its neighbour is not upright
     const Vec3 &a = upright[edge[0].triangle()].hull.outward, &b = upright[edge[1].triangle()].hull.outward;
-    if (dot(a, b) >= least_cosine * norm(a) * norm(b)) sets.unite(edge[0].triangle(), edge[1].triangle());
+    if (dot(a, b) >= one_wall * norm(a) * norm(b)) sets.unite(edge[0].triangle(), edge[1].triangle());
   });
   return sets;
 }

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/predicates.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include "geometry/exact_points.h"
 
 namespace eigencrust {
-namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-Kernel::Point_3 to_cgal(const Vec3& p) { return {p.x, p.y, p.z}; }
-
-} // namespace
 
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return static_cast<int>(CGAL::orientation(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d)));
@@ -24,7 +18,7 @@ bool collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 int normal_sign(const Vec3& a, const Vec3& b, const Vec3& c) {
-  using Point = Kernel::Point_2;
+  using Point = ExactPredicates::Point_2;
   int sign = static_cast<int>(CGAL::orientation(Point(a.y, a.z), Point(b.y, b.z), Point(c.y, c.z)));
   if (sign == 0) sign = static_cast<int>(CGAL::orientation(Point(a.z, a.x), Point(b.z, b.x), Point(c.z, c.x)));
   if (sign == 0) sign = static_cast<int>(CGAL::orientation(Point(a.x, a.y), Point(b.x, b.y), Point(c.x, c.y)));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/self_intersections.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
 
 #include <algorithm>
@@ -9,21 +8,20 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/exact_points.h"
+
 namespace eigencrust {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
-using Corners = std::array<Point, 3>;
-
-Point to_cgal(const Vec3& p) { return {p.x, p.y, p.z}; }
+using Point = ExactPredicates::Point_3;
+using ExactCorners = std::array<Point, 3>;
 
 Vec3 difference(const Point& p, const Point& q) { return {p.x() - q.x(), p.y() - q.y(), p.z() - q.z()}; }
 
 /// On which side of the plane through a lie points, where floating point can tell?
 class FilteredPlane {
  public:
-  explicit FilteredPlane(const Corners& c)
+  explicit FilteredPlane(const ExactCorners& c)
       : a_(c[0]), u_(difference(c[1], c[0])), v_(difference(c[2], c[0])), normal_(cross(u_, v_)) {
     const auto larger = [](double p, double q) { return std::max(std::fabs(p), std::fabs(q)); };
     size_ = {larger(u_.x, v_.x), larger(u_.y, v_.y), larger(u_.z, v_.z)};
@@ -47,7 +45,7 @@ class FilteredPlane {
 
 /// Are all points strictly on one and the same side of the plane of `plane`? One normal does for all of them.
 template <class... Points>
-bool strictly_beside(const Corners& plane, const Points&... points) {
+bool strictly_beside(const ExactCorners& plane, const Points&... points) {
   const FilteredPlane filter(plane);
   const int sure[] = {filter.side(points)...};
   if (std::none_of(std::begin(sure), std::end(sure), [](int s) { return s == 0; }))
@@ -57,21 +55,22 @@ bool strictly_beside(const Corners& plane, const Points&... points) {
          std::all_of(std::begin(sides), std::end(sides), [&](CGAL::Orientation s) { return s == sides[0]; });
 }
 
-bool meet_anywhere(const Corners& f, const Corners& g) {
+bool meet_anywhere(const ExactCorners& f, const ExactCorners& g) {
   if (strictly_beside(f, g[0], g[1], g[2]) || strictly_beside(g, f[0], f[1], f[2])) return false;
-  return CGAL::do_intersect(Kernel::Triangle_3(f[0], f[1], f[2]), Kernel::Triangle_3(g[0], g[1], g[2]));
+  return CGAL::do_intersect(ExactPredicates::Triangle_3(f[0], f[1], f[2]),
+                            ExactPredicates::Triangle_3(g[0], g[1], g[2]));
 }
 
 /// f[0] = g[0] is shared. A second common point p would lie on a ray from there that stays in both
 /// triangles until it leaves one of them, and that is through the side opposite the shared vertex.
-bool meet_beyond_vertex(const Corners& f, const Corners& g) {
+bool meet_beyond_vertex(const ExactCorners& f, const ExactCorners& g) {
   if (strictly_beside(f, g[1], g[2]) || strictly_beside(g, f[1], f[2])) return false;
-  return CGAL::do_intersect(Kernel::Triangle_3(f[0], f[1], f[2]), Kernel::Segment_3(g[1], g[2])) ||
-         CGAL::do_intersect(Kernel::Triangle_3(g[0], g[1], g[2]), Kernel::Segment_3(f[1], f[2]));
+  return CGAL::do_intersect(ExactPredicates::Triangle_3(f[0], f[1], f[2]), ExactPredicates::Segment_3(g[1], g[2])) ||
+         CGAL::do_intersect(ExactPredicates::Triangle_3(g[0], g[1], g[2]), ExactPredicates::Segment_3(f[1], f[2]));
 }
 
 /// f[0] = g[0] and f[1] = g[1] are shared: only a fold by half a turn makes them overlap.
-bool meet_beyond_edge(const Corners& f, const Corners& g) {
+bool meet_beyond_edge(const ExactCorners& f, const ExactCorners& g) {
   return CGAL::orientation(f[0], f[1], f[2], g[2]) == CGAL::COPLANAR &&
          CGAL::coplanar_orientation(f[0], f[1], f[2], g[2]) == CGAL::POSITIVE;
 }
@@ -92,7 +91,7 @@ int shared_first(Triangle& f, Triangle& g) {
 
 bool intersect(std::span<const Vec3> vertices, Triangle f, Triangle g) {
   const auto corners = [&](const Triangle& t) {
-    return Corners{to_cgal(vertices[t[0]]), to_cgal(vertices[t[1]]), to_cgal(vertices[t[2]])};
+    return ExactCorners{to_cgal(vertices[t[0]]), to_cgal(vertices[t[1]]), to_cgal(vertices[t[2]])};
   };
   switch (shared_first(f, g)) {
     case 0:

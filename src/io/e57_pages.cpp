@@ -12,7 +12,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "E57 files are little-endian");
 
-constexpr const char* cut_off = "fetch the file again, it may be cut off or damaged";
 constexpr std::size_t header_size = 48, checksum_size = 4;
 
 template <class T>

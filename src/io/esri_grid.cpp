@@ -13,7 +13,7 @@
 namespace eigencrust::io {
 namespace {
 
-constexpr const char* header_remedy =
+constexpr const char* grid_header_help =
     "begin the grid with the lines ncols, nrows, xllcorner (or xllcenter), yllcorner (or yllcenter), cellsize, "
     "NODATA_value";
 
@@ -62,11 +62,11 @@ class EsriGridReader {
       if (parse(height, value) || is_missing(height)) break; // the first row of heights
       const std::string word = lower_case(next_word(rest));
       if (!parse(trim(rest), value) || !std::isfinite(value))
-        lines_.fail("no number behind " + shown(word), header_remedy);
+        lines_.fail("no number behind " + shown(word), grid_header_help);
       take(word, value);
     }
     if (header_.rows == 0 || header_.columns == 0 || !header_.x || !header_.y || !(header_.dx > 0) || !(header_.dy > 0))
-      lines_.fail("the header of the grid is not complete", header_remedy);
+      lines_.fail("the header of the grid is not complete", grid_header_help);
     rest_ = lines_.line();
     if (header_.x_is_corner) *header_.x += header_.dx / 2;
     if (header_.y_is_corner) *header_.y += header_.dy / 2;
@@ -75,7 +75,7 @@ class EsriGridReader {
   void take(const std::string& word, double value) {
     const auto count = [&](std::uint64_t& n) {
       if (!(value >= 1 && value < 0x1p32 && value == std::floor(value)))
-        lines_.fail(word + " is no whole number", header_remedy);
+        lines_.fail(word + " is no whole number", grid_header_help);
       n = static_cast<std::uint64_t>(value);
     };
     if (word == "ncols") {
@@ -97,7 +97,7 @@ class EsriGridReader {
     } else if (word == "nodata_value" || word == "nodata") {
       header_.no_data = value;
     } else {
-      lines_.fail("unknown line " + shown(word) + " in the header of the grid", header_remedy);
+      lines_.fail("unknown line " + shown(word) + " in the header of the grid", grid_header_help);
     }
   }
 

@@ -12,6 +12,9 @@
 
 namespace eigencrust::io {
 
+/// What to do about a file that ends too early.
+inline constexpr const char* cut_off = "fetch the file again, it may be cut off or damaged";
+
 /// A whole file in memory.
 class FileContent {
  public:

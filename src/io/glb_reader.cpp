@@ -21,7 +21,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* remedy = "the file does not follow glTF 2.0; export it again with another program";
-constexpr const char* cut_off = "the file was cut off or changed; get it again";
 
 /// The two chunks of the file that count.
 struct Chunks {

@@ -9,7 +9,6 @@
 namespace eigencrust::io {
 namespace {
 
-constexpr const char* cut_off = "fetch the file again, it may be cut off";
 constexpr const char* repair = "write the file anew with the program that made it";
 
 constexpr std::size_t smallest_header = 227; ///< of versions 1.0 to 1.2

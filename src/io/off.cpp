@@ -11,7 +11,7 @@
 namespace eigencrust::io {
 namespace {
 
-constexpr const char* cut_off = "correct the counts, or fetch the file again if it is cut off";
+constexpr const char* wrong_counts = "correct the counts, or fetch the file again if it is cut off";
 
 class OffReader {
  public:
@@ -39,7 +39,9 @@ class OffReader {
   }
 
  private:
-  [[noreturn]] void fail_end(const std::string& where) const { lines_.fail("the OFF file ends " + where, cut_off); }
+  [[noreturn]] void fail_end(const std::string& where) const {
+    lines_.fail("the OFF file ends " + where, wrong_counts);
+  }
 
   /// Reads the letters before "OFF"; what follows on the line, perhaps without a blank, are the counts.
   std::string_view read_keyword(std::string_view line) {
@@ -73,7 +75,7 @@ class OffReader {
     if (vertex_count_ > left / 6 || face_count_ > left / 2)
       lines_.fail("the file is too short to hold " + plural(vertex_count_, "vertex row") + " and " +
                       plural(face_count_, "face row"),
-                  cut_off);
+                  wrong_counts);
   }
 
   void read_vertex() {
@@ -119,7 +121,7 @@ class OffReader {
       word = next_word(rest);
       std::uint64_t index = 0;
       if (word.empty())
-        lines_.fail("the face ends before the last of its " + plural(corners, "vertex number"), cut_off);
+        lines_.fail("the face ends before the last of its " + plural(corners, "vertex number"), wrong_counts);
       if (!parse(word, index) || index >= mesh_.vertices.size())
         lines_.fail("a face names vertex " + shown(word) + " of " + std::to_string(mesh_.vertices.size()),
                     "repair the mesh: vertices are counted from 0");

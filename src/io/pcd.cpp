@@ -23,8 +23,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "binary PCD files are little-endian");
 
-constexpr const char* cut_off = "fetch the file again, it may be cut off";
-
 bool is_packed_colour(const PcdField& f) {
   return (f.name == "rgb" || f.name == "rgba") && f.size == 4 && f.count == 1;
 }

@@ -9,7 +9,7 @@
 namespace eigencrust::io {
 namespace {
 
-constexpr const char* header_remedy =
+constexpr const char* pcd_header_help =
     "a PCD header has the lines VERSION, FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, VIEWPOINT, POINTS, DATA";
 
 class HeaderReader {
@@ -28,7 +28,7 @@ class HeaderReader {
       }
       take(keyword);
     }
-    lines_.fail("the file ends before the line DATA of the header", header_remedy);
+    lines_.fail("the file ends before the line DATA of the header", pcd_header_help);
   }
 
  private:
@@ -55,11 +55,11 @@ class HeaderReader {
     if (keyword == "HEIGHT") return take_number(height_);
     if (keyword == "POINTS") return take_number(points_);
     if (keyword == "VIEWPOINT") return take_viewpoint();
-    lines_.fail(shown(keyword) + " is no keyword of a PCD header", header_remedy);
+    lines_.fail(shown(keyword) + " is no keyword of a PCD header", pcd_header_help);
   }
 
   void take_fields() {
-    if (!header_.fields.empty()) lines_.fail("a second line FIELDS", header_remedy);
+    if (!header_.fields.empty()) lines_.fail("a second line FIELDS", pcd_header_help);
     for (const std::string_view word : words_) header_.fields.push_back({std::string(word)});
     if (header_.fields.empty()) lines_.fail("FIELDS names no field", "name at least x, y and z");
   }
@@ -78,7 +78,7 @@ class HeaderReader {
 
   void take_number(std::optional<std::uint64_t>& number) {
     std::uint64_t value = 0;
-    if (words_.size() != 1 || !parse(words_[0], value)) lines_.fail("a whole number is expected", header_remedy);
+    if (words_.size() != 1 || !parse(words_[0], value)) lines_.fail("a whole number is expected", pcd_header_help);
     number = value;
   }
 
@@ -105,13 +105,13 @@ class HeaderReader {
   }
 
   void finish() {
-    if (header_.fields.empty()) lines_.fail("the header has no line FIELDS", header_remedy);
+    if (header_.fields.empty()) lines_.fail("the header has no line FIELDS", pcd_header_help);
     for (const PcdField& f : header_.fields)
       if (f.type == 'F' && f.size < 4)
         lines_.fail("field " + shown(f.name) + " is a floating-point number of " + plural(f.size, "byte"),
                     "use SIZE 4 or 8 with TYPE F");
     if (header_.row_bytes() > 0xffffffff) lines_.fail("the fields are too long", "use smaller values of COUNT");
-    if (!points_ && !width_) lines_.fail("the header says neither POINTS nor WIDTH", header_remedy);
+    if (!points_ && !width_) lines_.fail("the header says neither POINTS nor WIDTH", pcd_header_help);
     // An unorganized cloud of an old version has no WIDTH.
     const std::uint64_t width = width_.value_or(points_.value_or(0)), height = height_.value_or(1);
     if (height != 0 && width > 0xffffffffffffffff / height)

@@ -16,7 +16,7 @@
 namespace eigencrust::io {
 namespace {
 
-constexpr const char* cut_off = "the file is cut off or its header is wrong: fetch it again";
+constexpr const char* cut_off_or_miscounted = "the file is cut off or its header is wrong: fetch it again";
 
 std::vector<Attribute> empty_columns(const PlyElement& element) {
   std::vector<Attribute> columns;
@@ -61,7 +61,7 @@ class BinaryElements {
                          "the file ends within element " + shown(element.name) + ", which has " +
                              plural(element.count, "row") + " of " + (has_list ? "at least " : "") +
                              plural(row_size, "byte") + ",",
-                         cut_off);
+                         cut_off_or_miscounted);
     std::vector<Attribute> columns;
     if (has_list) {
       columns = read_rows(element, wanted);
@@ -117,7 +117,8 @@ class BinaryElements {
     std::memcpy(value.data(), bytes_.data() + position_, size);
     if (swap_) swap_bytes({value.data(), size}, size);
     const double length = load_as_double(column.count_type, value.data(), 0);
-    if (length < 0) file_.fail_at_byte(position_, "negative list length in " + place(element, row), cut_off);
+    if (length < 0)
+      file_.fail_at_byte(position_, "negative list length in " + place(element, row), cut_off_or_miscounted);
     position_ += size;
     return static_cast<std::size_t>(length);
   }
@@ -126,7 +127,7 @@ class BinaryElements {
     return "row " + std::to_string(row) + " of element " + shown(element.name);
   }
   [[noreturn]] void fail_within(const PlyElement& element, std::uint64_t row) const {
-    file_.fail_at_byte(bytes_.size(), "the file ends within " + place(element, row) + ",", cut_off);
+    file_.fail_at_byte(bytes_.size(), "the file ends within " + place(element, row) + ",", cut_off_or_miscounted);
   }
 
   const FileContent& file_;
@@ -175,7 +176,7 @@ class TextElements {
       std::uint64_t entries = 0;
       const std::string_view word = next_word(rest);
       if (!parse(word, entries)) fail_value(word, column.name);
-      if (entries > (rest.size() + 1) / 2) lines_.fail("the list is longer than its line", cut_off);
+      if (entries > (rest.size() + 1) / 2) lines_.fail("the list is longer than its line", cut_off_or_miscounted);
       for (std::uint64_t k = 0; k < entries; ++k) read_value(column, rest);
       column.offsets.push_back(column.values.size() / size_of(column.type));
     }
@@ -201,11 +202,12 @@ class TextElements {
   }
 
   [[noreturn]] void fail_value(std::string_view word, const std::string& name) const {
-    if (word.empty()) lines_.fail("the line ends before property " + shown(name), cut_off);
+    if (word.empty()) lines_.fail("the line ends before property " + shown(name), cut_off_or_miscounted);
     lines_.fail(shown(word) + " is no value of property " + shown(name), "correct the value or the property's type");
   }
   [[noreturn]] void fail_short(const PlyElement& element, const std::string& cause) const {
-    lines_.fail(cause + " the " + plural(element.count, "row") + " of element " + shown(element.name), cut_off);
+    lines_.fail(cause + " the " + plural(element.count, "row") + " of element " + shown(element.name),
+                cut_off_or_miscounted);
   }
 
   LineScanner lines_;

@@ -17,7 +17,7 @@
 namespace eigencrust::io {
 namespace {
 
-constexpr const char* header_remedy =
+constexpr const char* ptx_header_help =
     "a PTX scan begins with the lines columns, rows, position, three axes, four rows of the matrix";
 constexpr const char* count_remedy =
     "correct the numbers of columns and rows, or fetch the file again if it is cut off";
@@ -41,7 +41,7 @@ struct Scan {
 
 std::uint64_t read_count(LineScanner& lines, const char* what) {
   std::uint64_t count = 0;
-  if (!lines.next_filled()) lines.fail(std::string("the file ends before the number of ") + what, header_remedy);
+  if (!lines.next_filled()) lines.fail(std::string("the file ends before the number of ") + what, ptx_header_help);
   if (!parse(lines.line(), count))
     lines.fail(shown(lines.line()) + " where the number of " + what + " of a scan is expected",
                "correct the numbers of columns and rows of the scan before, or of this one");
@@ -50,12 +50,12 @@ std::uint64_t read_count(LineScanner& lines, const char* what) {
 
 template <std::size_t n>
 std::array<double, n> read_numbers(LineScanner& lines, Fields& fields, const char* what) {
-  if (!lines.next_filled()) lines.fail(std::string("the file ends before ") + what + " of a scan", header_remedy);
+  if (!lines.next_filled()) lines.fail(std::string("the file ends before ") + what + " of a scan", ptx_header_help);
   split_fields(lines.line(), fields);
   std::array<double, n> numbers{};
   bool good = fields.size() == n;
   for (std::size_t i = 0; good && i < n; ++i) good = parse(fields[i], numbers[i]) && std::isfinite(numbers[i]);
-  if (!good) lines.fail(shown(lines.line()) + " where " + what + " of a scan is expected", header_remedy);
+  if (!good) lines.fail(shown(lines.line()) + " where " + what + " of a scan is expected", ptx_header_help);
   return numbers;
 }
 
@@ -163,7 +163,7 @@ PointCloud read_ptx(const FileContent& file, ReadNotes& notes) {
     empty += read_rows(lines, fields, scans.back(), table, places);
     scans.back().end = table.rows();
   }
-  if (scans.empty()) file.fail("the file holds no scan", header_remedy);
+  if (scans.empty()) file.fail("the file holds no scan", ptx_header_help);
   PointCloud cloud = table.finish(true, notes);
   if (empty > 0) notes.notes.push_back(plural(empty, "empty return") + " (0 0 0) left out");
   place_scans(cloud, scans, notes.notes);

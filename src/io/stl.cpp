@@ -17,7 +17,6 @@ namespace eigencrust::io {
 namespace {
 
 constexpr std::size_t header_size = 84, facet_size = 50;
-constexpr const char* cut_off = "the file is cut off or damaged: fetch it again";
 
 /// Numbers the distinct positions in order of appearance.
 class VertexMerger {

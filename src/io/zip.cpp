@@ -14,8 +14,6 @@
 namespace eigencrust::io {
 namespace {
 
-constexpr const char* cut_off = "fetch the file again, it is cut off or damaged";
-
 constexpr std::uint32_t local_mark = 0x04034b50, central_mark = 0x02014b50, end_mark = 0x06054b50;
 constexpr std::uint32_t end64_mark = 0x06064b50, locator64_mark = 0x07064b50;
 constexpr std::uint32_t in_extra = 0xffffffff; ///< the number stands in the extra field for large files

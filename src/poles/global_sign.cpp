@@ -9,9 +9,9 @@
 namespace eigencrust {
 namespace {
 
-struct Evidence {
+struct Votes {
   double balance = 0, total = 0;
-  Evidence operator+(const Evidence& other) const { return {balance + other.balance, total + other.total}; }
+  Votes operator+(const Votes& other) const { return {balance + other.balance, total + other.total}; }
 };
 
 } // namespace
@@ -31,7 +31,7 @@ double outside_evidence(const Tetrahedralization& t, const Poles& poles, const P
           -opposite_weight(t.positions.raw()[i], poles.sphere[pair.first], poles.sphere[pair.second]));
   });
   std::vector<double> claimed(graph.graph.node_count(), 0);
-  Evidence sum;
+  Votes sum;
   for (std::uint32_t i = 0; i < t.sample_count; ++i) {
     if (target[i] == NodeIndex::none) continue;
     const double weight = static_cast<double>(repulsive[i]);

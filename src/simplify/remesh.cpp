@@ -26,7 +26,7 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
-using Mesh = CGAL::Surface_mesh<Point>;
+using HalfedgeMesh = CGAL::Surface_mesh<Point>;
 
 // Degrees between the normals of two triangles: more is a crease. Noise that was fitted makes 10, machined parts have
 // 90.
@@ -34,7 +34,7 @@ constexpr double crease = 60;
 // Of splitting, collapsing, flipping and moving; more change little.
 constexpr unsigned iterations = 5;
 // Rounds in which ever wider surroundings of crossings stay as they were.
-constexpr int rounds = 8;
+constexpr int most_rounds = 8;
 // A much finer mesh is simplified before, to so many times the triangles that there will be: they are as good to work
 // on, and where they stay they are not much smaller.
 constexpr double finer = 4;
@@ -76,9 +76,9 @@ class Remeshing {
 
   OtherTriangles run() {
     OtherTriangles result{full_, {}, 0, 0};
-    for (int round = 0; round <= rounds; ++round) {
+    for (int round = 0; round <= most_rounds; ++round) {
       std::optional<TriangleMesh> mesh;
-      if (round < rounds) mesh = remeshed_if_possible();
+      if (round < most_rounds) mesh = remeshed_if_possible();
       if (!mesh) break; // as it was
       CrossingVertices crossing = crossing_vertices(*mesh, threads_);
       if (crossing.count == 0) crossing.at = sides_.turned(*mesh, vertices_before(*mesh), threads_);
@@ -113,25 +113,26 @@ class Remeshing {
   /// None: the mesh is no manifold.
   [[nodiscard]] std::optional<TriangleMesh> remeshed() const {
     namespace pmp = CGAL::Polygon_mesh_processing;
-    Mesh mesh;
-    const auto number = mesh.add_property_map<Mesh::Vertex_index, std::uint32_t>("v:before", no_index).first;
+    HalfedgeMesh mesh;
+    const auto number = mesh.add_property_map<HalfedgeMesh::Vertex_index, std::uint32_t>("v:before", no_index).first;
     for (std::uint32_t v = 0; v < full_.vertices.size(); ++v) {
       const Vec3 p = full_.vertices[v] - centre_;
       number[mesh.add_vertex(Point(p.x, p.y, p.z))] = v;
     }
-    const auto kept = mesh.add_property_map<Mesh::Face_index, bool>("f:kept", false).first;
+    const auto kept = mesh.add_property_map<HalfedgeMesh::Face_index, bool>("f:kept", false).first;
     for (std::size_t t = 0; t < full_.triangles.size(); ++t) {
       const auto& [a, b, c] = full_.triangles[t];
-      const auto face = mesh.add_face(Mesh::Vertex_index(a), Mesh::Vertex_index(b), Mesh::Vertex_index(c));
-      if (face == Mesh::null_face()) return std::nullopt;
+      const auto face =
+          mesh.add_face(HalfedgeMesh::Vertex_index(a), HalfedgeMesh::Vertex_index(b), HalfedgeMesh::Vertex_index(c));
+      if (face == HalfedgeMesh::null_face()) return std::nullopt;
       kept[face] = kept_[t] != 0;
     }
-    const auto creases = mesh.add_property_map<Mesh::Edge_index, bool>("e:crease", false).first;
+    const auto creases = mesh.add_property_map<HalfedgeMesh::Edge_index, bool>("e:crease", false).first;
     for (unsigned i = 0; i < iterations; ++i) {
       // CGAL forgets creases that it collapses.
-      for (const Mesh::Edge_index e : mesh.edges()) creases[e] = is_crease(mesh, e);
-      std::vector<Mesh::Face_index> free;
-      for (const Mesh::Face_index f : mesh.faces())
+      for (const HalfedgeMesh::Edge_index e : mesh.edges()) creases[e] = is_crease(mesh, e);
+      std::vector<HalfedgeMesh::Face_index> free;
+      for (const HalfedgeMesh::Face_index f : mesh.faces())
         if (!kept[f]) free.push_back(f);
       // CGAL 5.5 moves vertices itself, but reads past the end where all triangles around one have no area.
       pmp::isotropic_remeshing(free, edge_, mesh,
@@ -147,12 +148,12 @@ class Remeshing {
   /// Each vertex, but those at rims, creases and what is kept, to the middle of its neighbours, along its tangent plane
   /// and then to the surface, where that turns none of its triangles over.
   template <class Kept, class Creases>
-  void move_along_surface(Mesh& mesh, const Kept& kept, const Creases& creases) const {
-    std::vector<Mesh::Vertex_index> movable;
-    for (const Mesh::Vertex_index v : mesh.vertices()) {
+  void move_along_surface(HalfedgeMesh& mesh, const Kept& kept, const Creases& creases) const {
+    std::vector<HalfedgeMesh::Vertex_index> movable;
+    for (const HalfedgeMesh::Vertex_index v : mesh.vertices()) {
       bool may_move = !mesh.is_isolated(v);
       if (may_move)
-        for (const Mesh::Halfedge_index h : mesh.halfedges_around_target(mesh.halfedge(v)))
+        for (const HalfedgeMesh::Halfedge_index h : mesh.halfedges_around_target(mesh.halfedge(v)))
           may_move = may_move && !mesh.is_border(mesh.edge(h)) && !creases[mesh.edge(h)] && !kept[mesh.face(h)];
       if (may_move) movable.push_back(v);
     }
@@ -169,25 +170,26 @@ class Remeshing {
     }
   }
 
-  static Vec3 place(const Mesh& mesh, Mesh::Vertex_index v) {
+  static Vec3 place(const HalfedgeMesh& mesh, HalfedgeMesh::Vertex_index v) {
     const Point& p = mesh.point(v);
     return {p.x(), p.y(), p.z()};
   }
   /// Twice the area of the triangle at the halfedge, along its normal.
-  static Vec3 area(const Mesh& mesh, Mesh::Halfedge_index h) {
+  static Vec3 area(const HalfedgeMesh& mesh, HalfedgeMesh::Halfedge_index h) {
     const Vec3 from = place(mesh, mesh.source(h));
     return cross(place(mesh, mesh.target(h)) - from, place(mesh, mesh.target(mesh.next(h))) - from);
   }
-  static std::vector<Vec3> areas_around(const Mesh& mesh, Mesh::Vertex_index v) {
+  static std::vector<Vec3> areas_around(const HalfedgeMesh& mesh, HalfedgeMesh::Vertex_index v) {
     std::vector<Vec3> areas;
-    for (const Mesh::Halfedge_index h : mesh.halfedges_around_target(mesh.halfedge(v))) areas.push_back(area(mesh, h));
+    for (const HalfedgeMesh::Halfedge_index h : mesh.halfedges_around_target(mesh.halfedge(v)))
+      areas.push_back(area(mesh, h));
     return areas;
   }
-  [[nodiscard]] Vec3 better_place(const Mesh& mesh, Mesh::Vertex_index v) const {
+  [[nodiscard]] Vec3 better_place(const HalfedgeMesh& mesh, HalfedgeMesh::Vertex_index v) const {
     const Vec3 here = place(mesh, v);
     Vec3 sum, normal;
     double count = 0;
-    for (const Mesh::Halfedge_index h : mesh.halfedges_around_target(mesh.halfedge(v))) {
+    for (const HalfedgeMesh::Halfedge_index h : mesh.halfedges_around_target(mesh.halfedge(v))) {
       sum = sum + (place(mesh, mesh.source(h)) - here);
       count += 1;
     }
@@ -197,7 +199,7 @@ class Remeshing {
     return surface_.tree().nearest(here + way + centre_).point - centre_;
   }
 
-  static bool is_crease(const Mesh& mesh, Mesh::Edge_index e) {
+  static bool is_crease(const HalfedgeMesh& mesh, HalfedgeMesh::Edge_index e) {
     if (mesh.is_border(e)) return false; // stays anyway
     const Vec3 m = area(mesh, mesh.halfedge(e, 0)), n = area(mesh, mesh.halfedge(e, 1));
     return dot(m, n) < std::cos(crease * std::numbers::pi / 180) * norm(m) * norm(n);
@@ -205,10 +207,10 @@ class Remeshing {
 
   /// In the coordinates of the full mesh; what did not move is where it was bit for bit.
   template <class Numbers>
-  [[nodiscard]] TriangleMesh placed(const Mesh& mesh, const Numbers& number) const {
+  [[nodiscard]] TriangleMesh placed(const HalfedgeMesh& mesh, const Numbers& number) const {
     TriangleMesh result;
     std::vector<std::uint32_t> place(mesh.num_vertices(), no_index);
-    for (const Mesh::Vertex_index v : mesh.vertices()) {
+    for (const HalfedgeMesh::Vertex_index v : mesh.vertices()) {
       if (mesh.is_isolated(v)) continue;
       place[v] = static_cast<std::uint32_t>(result.vertices.size());
       const Vec3 p{mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()};
