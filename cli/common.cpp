@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iomanip>
 #include <sstream>
 
 #include "command.h"
@@ -292,6 +293,17 @@ std::string describe_moved(const Report& report) {
   return out.str();
 }
 
+std::string describe_bridged(const Report& report) {
+  const BridgedReport& bridged = report.bridged;
+  if (bridged.places == 0 || report.options.trim) return {};
+  // As many digits as it takes to find the place.
+  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(bridged.widest))), 0, 12);
+  std::ostringstream at;
+  at << std::fixed << std::setprecision(digits) << bridged.at.x << "," << bridged.at.y << "," << bridged.at.z;
+  return "  " + count_of(bridged.places, "place", "places") + " without samples bridged, " +
+         (bridged.places == 1 ? "" : "the largest ") + rounded(bridged.widest) + " wide, at " + at.str() + "\n";
+}
+
 std::string describe_simplified(const Report& report) {
   if (!report.simplified) return {};
   const SimplifiedReport& s = *report.simplified;
@@ -316,13 +328,14 @@ std::string describe(const Report& report) {
     text += "  interior: free space of " + rounded(-mesh.volume) + ", walls of " + rounded(mesh.area) + "\n";
   else
     text += describe_size(mesh);
-  if (mesh.closed() && rooms) return text + describe_moved(report) + describe_simplified(report);
+  if (mesh.closed() && rooms)
+    return text + describe_bridged(report) + describe_moved(report) + describe_simplified(report);
   if (!mesh.closed()) // what is left after trimming is covered
     text += ", " + (report.options.trim ? "all" : rounded(100 * (1 - report.unsupported_area)) + " %") +
             " of it covered by samples";
   if (report.base) text += "; " + rounded(report.base->volume_above_rim) + " above the plane of the rim";
   text += "\n";
-  text += describe_moved(report) + describe_simplified(report);
+  text += describe_bridged(report) + describe_moved(report) + describe_simplified(report);
   if (report.surroundings.kind == SceneKind::facade)
     text += "  one side: seen from " + to_string(report.surroundings.front) + ", solid behind" +
             (report.options.facade

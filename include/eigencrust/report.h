@@ -50,6 +50,13 @@ struct MovedReport {
   std::uint64_t crossing = 0;          ///< pairs of triangles that cross all the same
 };
 
+/// Where the surface goes over what no samples bear out: holes in the data, mouths of what was not seen inside.
+struct BridgedReport {
+  std::uint64_t places = 0; ///< that are 10 spacings wide or more
+  double widest = 0;        ///< diameter of the disc as large as the largest of them, in the unit of the input
+  Vec3 at;                  ///< its middle
+};
+
 /// Distances from points of one surface to another.
 struct DistanceReport {
   double mean = 0, max = 0; ///< in the unit of the input
@@ -102,6 +109,7 @@ struct Report {
   Surroundings surroundings;                        ///< what was scanned
   std::optional<Base> base;                         ///< where Options::base was asked for
   double unsupported_area = 0;                ///< share of the surface's area that no samples bear out, before trimming
+  BridgedReport bridged;                      ///< before trimming
   std::optional<MovedReport> moved;           ///< none: every vertex is an input point
   std::optional<SimplifiedReport> simplified; ///< none: triangles are those of the surface
   double seconds = 0;                         ///< of the whole run

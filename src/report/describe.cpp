@@ -221,6 +221,7 @@ void describe(const UnsupportedTriangles& unsupported, Run& run) {
   Report& report = run.report();
   report.unsupported_area = unsupported.share_of_area;
   run.count("unsupported", static_cast<double>(std::count(unsupported.marked.begin(), unsupported.marked.end(), 1)));
+  report.bridged = unsupported.bridged;
   constexpr double usual = 0.1;
   if (report.unsupported_area > usual && !report.options.trim)
     run.warn(std::to_string(std::lround(100 * report.unsupported_area)) +

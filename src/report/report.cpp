@@ -109,6 +109,12 @@ Json json_of(const std::optional<OneSided>& scan) {
   return {{"direction", json_of(scan->direction)}, {"widest_angle", scan->widest_angle * 180 / std::numbers::pi}};
 }
 
+Json json_of(const BridgedReport& bridged) {
+  return {{"places", bridged.places},
+          {"widest", bridged.widest},
+          {"at", bridged.places > 0 ? json_of(bridged.at) : Json()}};
+}
+
 Json json_of(const std::optional<MovedReport>& moved) {
   if (!moved) return {};
   return {{"vertices", moved->vertices},
@@ -208,6 +214,7 @@ std::string to_json(const Report& report) {
       {"one_sided", json_of(report.one_sided)},
       {"base", json_of(report.base)},
       {"unsupported_area", report.unsupported_area},
+      {"bridged", json_of(report.bridged)},
       {"moved", json_of(report.moved)},
       {"simplified", json_of(report.simplified)},
       {"seconds", report.seconds},

@@ -148,7 +148,8 @@ Surface make_surface(const PointCloud& cloud, const Scene& scene, const Evidence
       }
       close_smallest_rims(t, scene.stars, surface);
     }
-    return UnsupportedTriangles{surface.unsupported, share_of_area(surface, surface.unsupported)};
+    return UnsupportedTriangles{surface.unsupported, share_of_area(surface, surface.unsupported),
+                                bridged_places(surface, surface.unsupported, model, t.origin, threads)};
   });
   if (options.trim) trim(std::move(unsupported.marked), surface);
   if (options.trim || (is_open && !options.base)) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numbers>
 
 #include <eigencrust/stages.h>
 
@@ -16,9 +18,7 @@
 namespace eigencrust {
 namespace {
 
-// Edges twice as long as a surface has them lead over what was not sampled; the support of such a triangle is at most
-// this.
-constexpr double longest_kept = 2 * longest_edge;
+// Of a triangle that is kept; that of one with a longer edge is at most this.
 constexpr float least_support = 0.25f;
 // A scanner sees no surface at a flatter angle; triangles that do lie so lead from one depth to another.
 constexpr double flattest = 0.08716; // cosine of 85°
@@ -113,6 +113,48 @@ std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& t, con
                       (surface.support[i] < least_support || !is_seen(t, lines, one_sided, surface, i)));
   });
   return unsupported;
+}
+
+BridgedReport bridged_places(const Surface& surface, std::span<const std::uint8_t> marked, const SampleModel& model,
+                             const Vec3& origin, const Threads& threads) {
+  struct Place {
+    double area = 0, squares = 0; ///< in the unit of the input, and in that of the local spacing
+    Vec3 middle;                  ///< times area
+  };
+  const TriangleMesh& mesh = surface.mesh;
+  std::vector<std::uint32_t> number;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!marked[t]) continue;
+    number.push_back(t);
+    triangles.push_back(mesh.triangles[t]);
+  }
+  DisjointSets joined(triangles.size());
+  for_each_edge(sorted_sides(triangles, mesh.vertices.size(), threads), [&](std::span<const Side> edge) {
+    if (edge.size() == 2) joined.unite(edge[0].triangle(), edge[1].triangle());
+  });
+  std::map<std::uint32_t, Place> places; // by the first triangle
+  for (std::uint32_t i = 0; i < number.size(); ++i) {
+    const std::uint32_t t = number[i];
+    const double area = norm(area_vector(mesh, t)) / 2;
+    double spacing = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t v : mesh.triangles[t])
+      spacing = std::min(spacing, static_cast<double>(model.spacing[surface.sample_of[v]]));
+    Place& place = places[joined.find(i)];
+    place.area += area;
+    place.squares += area / (spacing * spacing);
+    place.middle = place.middle + area * centroid(corners(mesh, t));
+  }
+  BridgedReport report;
+  const auto diameter = [](double area) { return 2 * std::sqrt(area / std::numbers::pi); };
+  for (const auto& [first, place] : places) {
+    if (!(diameter(place.squares) >= longest_kept)) continue;
+    ++report.places;
+    if (diameter(place.area) <= report.widest) continue;
+    report.widest = diameter(place.area);
+    report.at = origin + (1 / place.area) * place.middle;
+  }
+  return report;
 }
 
 std::vector<std::uint8_t> marked_at_rim(const TriangleMesh& mesh, std::span<const std::uint8_t> marked) {

@@ -3,12 +3,17 @@
 /// What was invented.
 #pragma once
 
+#include <eigencrust/report.h>
 #include <eigencrust/stages.h>
 
 #include "samples/sample_model.h"
+#include "samples/scales.h"
 #include "surface/range_grid.h"
 
 namespace eigencrust {
+
+/// In spacings: edges twice as long as a surface has them lead over what was not sampled.
+inline constexpr double longest_kept = 2 * longest_edge;
 
 /// The triangles that the samples do not bear out (1): their support is below 1/4, or their longest edge exceeds 10
 /// times the smallest local spacing of their vertices (of isolated ones: that of the surface nearest to them), or no
@@ -22,11 +27,15 @@ std::vector<std::uint8_t> unsupported_triangles(const Tetrahedralization& tetrah
 double share_of_area(const Surface& surface, std::span<const std::uint8_t> marked);
 /// Of the triangles marked those that are at the rim, or joined to it by others that are marked.
 std::vector<std::uint8_t> marked_at_rim(const TriangleMesh& mesh, std::span<const std::uint8_t> marked);
-/// What unsupported_triangles() marked, and its share.
+/// What unsupported_triangles() marked, its share, and where it is wide.
 struct UnsupportedTriangles {
   std::vector<std::uint8_t> marked;
   double share_of_area = 0;
+  BridgedReport bridged;
 };
+/// The places where marked triangles hang together along edges. \param origin of the surface's coordinates
+BridgedReport bridged_places(const Surface& surface, std::span<const std::uint8_t> marked, const SampleModel& model,
+                             const Vec3& origin, const Threads& threads);
 /// Takes away the triangles marked, and then, at vertices with several fans, all but the largest fan: an oriented
 /// manifold surface stays one, with boundary.
 void trim(std::vector<std::uint8_t> unsupported, Surface& surface);

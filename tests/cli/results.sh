@@ -163,6 +163,19 @@ test_without_noise_vertices_are_the_samples() {
   grep -q 'vertices moved' out || die "fitted moves nothing"
 }
 
+test_holes_in_the_data_are_told_of() {
+  sphere 4000 >all.xyz
+  expect 0 all.xyz -o mesh.ply --report report.json
+  ! grep -q bridged out || die "nothing is missing: $(cat out)"
+  equal places "$(value report.json /bridged/places)" 0
+  awk '$3 < 0.8 { printf "%.6f %s %s\n", $1 + 4000000, $2, $3 }' all.xyz >open.xyz
+  expect 0 open.xyz -o mesh.ply --report report.json
+  grep -qE '^  1 place without samples bridged, 1\.[0-9]+ wide, at (4000000|3999999\.9|4000000\.0)' out || die "not told: $(cat out)"
+  equal places "$(value report.json /bridged/places)" 1
+  expect 0 open.xyz -o mesh.ply --trim
+  ! grep -q bridged out || die "told of what was left out"
+}
+
 test_report_agrees_with_check() {
   { sphere 2000; sphere 500 0.3 5; } >cloud.xyz
   expect 0 cloud.xyz -o mesh.ply --report report.json --components all

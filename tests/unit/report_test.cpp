@@ -53,6 +53,7 @@ TEST(Report, HasTheSchemaOfTheDocumentation) {
                                      "grid_spacing", "dropped_components", "undecided_nodes", "sight_lines",
                                      "contradicting_rays", "one_sided", "unsupported_area", "seconds",
                                      "peak_memory_bytes", "warnings", "broken_guarantees"}));
+  EXPECT_THAT(keys(j["bridged"]), IsSupersetOf({"places", "widest", "at"}));
   EXPECT_THAT(keys(j["input"]), IsSupersetOf({"files", "points", "duplicates", "nonfinite", "spacing", "bounds"}));
   EXPECT_THAT(keys(j["input"]["files"][0]), IsSupersetOf({"path", "sha256", "points"}));
   EXPECT_THAT(keys(j["stages"][0]), IsSupersetOf({"name", "seconds", "peak_memory_bytes", "tetrahedra"}));

@@ -118,6 +118,26 @@ Surface surface_of(const TriangleMesh& mesh) {
   return surface;
 }
 
+/// Of a ball of 4000 samples without those above a height.
+BridgedReport bridges_of_ball(double height, const Vec3& origin) {
+  Points points = clouds::sphere(4000);
+  std::erase_if(points, [&](const Vec3& p) { return p.z > height || p.z < -height; });
+  Hull hull(points);
+  return bridged_places(hull.surface, hull.unsupported({}, false), hull.model, origin + hull.p.t.origin, Threads(2));
+}
+
+TEST(Bridged, CapsOfABallThatWereNotSeen) {
+  EXPECT_EQ(bridges_of_ball(2, {}).places, 0);
+  const Vec3 origin{4e6, -2e5, 300};
+  const BridgedReport bridged = bridges_of_ball(0.8, origin);
+  EXPECT_EQ(bridged.places, 2);
+  EXPECT_NEAR(bridged.widest, 2 * 0.6, 0.1);
+  EXPECT_NEAR(bridged.at.x - origin.x, 0, 0.1);
+  EXPECT_NEAR(bridged.at.y - origin.y, 0, 0.1);
+  EXPECT_NEAR(std::fabs(bridged.at.z - origin.z), 0.8, 0.05);
+  EXPECT_EQ(bridges_of_ball(0.999, {}).places, 0) << "a few samples are missing anywhere";
+}
+
 TEST(Trim, LeavesAManifoldWithBoundary) {
   // At random a third of a ball goes: many fans then meet in a vertex.
   Surface surface = surface_of(shapes::icosphere(3));
