@@ -25,7 +25,7 @@ struct StageShare {
   std::string_view name;
   double share;
 };
-constexpr std::array<StageShare, 30> shares{{{"reading", 3},
+constexpr std::array<StageShare, 31> shares{{{"reading", 3},
                                              {"samples", 4},
                                              {"sample_model", 8},
                                              {"delaunay", 24},
@@ -52,6 +52,7 @@ constexpr std::array<StageShare, 30> shares{{{"reading", 3},
                                              {"points", 2},
                                              {"fit", 12},
                                              {"crossings", 4},
+                                             {"edges", 2},
                                              {"attributes", 1},
                                              {"validate", 10},
                                              {"writing", 3}}};

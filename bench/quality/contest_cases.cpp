@@ -271,7 +271,8 @@ const std::vector<ContestGroup>& contest_groups() {
   static const std::vector<ContestGroup> groups{
       {"clean", "Clean dense samples",
        "Without noise and outliers every method must find the true genus. *agree*: share of the triangles that are "
-       "also in the surface of eigencrust; *but for turned*: or lie two and two over the same four corners as two of "
+       "also in the surface of `eigencrust --surface delaunay`; *but for turned*: or lie two and two over the same "
+       "four corners as two of "
        "its, the edge between them turned, because the flat tetrahedron of the four is inside of one surface and "
        "outside of the other."},
       {"fig5", "Figure 5: polarized eigenvectors",

@@ -20,7 +20,8 @@ constexpr const char* introduction =
     "compare` measure, merging equal vertices first.";
 constexpr const char* how_to_read =
     "Rows: `eigencrust` is the program without options; where a scan is noisy it moves vertices into the middle of the "
-    "noise, with `--surface samples` it does not. *pieces*, *genus*: of all pieces together; *non-manifold*: edges and "
+    "noise, and elsewhere it flips edges; with `--surface delaunay` it does neither. *pieces*, *genus*: of all pieces "
+    "together; *non-manifold*: edges and "
     "vertices; *crossings*: pairs of triangles, not counted in meshes of more than three million; *outliers*: rows "
     "that are "
     "no samples of the surface but lie on it, within one spacing; of raw scans, rows whose 8th neighbour is more than "

@@ -43,12 +43,12 @@ bool run_commands(const Contestant& who, double limit, ContestRun& run) {
   return true;
 }
 
-/// Measures and draws the mesh of a run. \param first the mesh of the first run; empty: this is it
-void look_at(const ContestCase& item, const ContestSettings& settings, const fs::path& mesh, const fs::path& first,
+/// Measures and draws the mesh of a run. \param other the mesh to compare it with; may be empty
+void look_at(const ContestCase& item, const ContestSettings& settings, const fs::path& mesh, const fs::path& other,
              ContestRun& run) {
   const std::string folder = mesh.parent_path().string();
   const std::string figures = step_output(
-      settings, {"--step", "measure", "--folder", folder, "--mesh", mesh.string(), "--other", first.string()});
+      settings, {"--step", "measure", "--folder", folder, "--mesh", mesh.string(), "--other", other.string()});
   run.figures = nlohmann::json::parse(figures);
   if (!item.pictures) return;
   run.picture = mesh.stem().string() + ".png";
@@ -57,7 +57,7 @@ void look_at(const ContestCase& item, const ContestSettings& settings, const fs:
 }
 
 void run_one(const ContestCase& item, const ContestSettings& settings, const Contestant& who, const fs::path& mesh,
-             const fs::path& first, double limit, ContestRun& run) {
+             const fs::path& other, double limit, ContestRun& run) {
   run.note = who.missing;
   if (!run.note.empty()) return;
   try {
@@ -66,7 +66,7 @@ void run_one(const ContestCase& item, const ContestSettings& settings, const Con
     else if (!fs::exists(mesh))
       run.note = "no surface";
     else
-      look_at(item, settings, mesh, first, run);
+      look_at(item, settings, mesh, other, run);
   } catch (const Error& error) {
     run.note = error.cause();
   } catch (const std::exception& error) {
@@ -74,13 +74,14 @@ void run_one(const ContestCase& item, const ContestSettings& settings, const Con
   }
 }
 
-/// Runs one contestant with a file of its own. \param limit of seconds for peers
+/// Runs one contestant with a file of its own. \param first that its commands name \param other to compare with; may be
+/// empty \param limit of seconds for peers
 ContestRun contend(const ContestCase& item, const ContestSettings& settings, Contestant who, const fs::path& mesh,
-                   const fs::path& first, double limit) {
+                   const fs::path& first, const fs::path& other, double limit) {
   for (auto& command : who.commands) std::replace(command.begin(), command.end(), first.string(), mesh.string());
   ContestRun run{who.name, who.peer, {}, 0, 0, {}, {}};
   fs::remove(mesh);
-  run_one(item, settings, who, mesh, mesh == first ? fs::path{} : first, limit, run);
+  run_one(item, settings, who, mesh, other, limit, run);
   return run;
 }
 
@@ -118,12 +119,14 @@ ContestOutcome run_contest(const ContestCase& item, const ContestSettings& setti
   outcome.components = scene.components;
   outcome.volume = scene.volume;
   double limit = 0;
+  fs::path faces; // their mesh, once it is there
   for (const Contestant& who : contestants(item, settings.programs, scene.cloud, first, settings.threads)) {
     const fs::path mesh = folder / (std::to_string(outcome.runs.size()) + ".ply");
-    outcome.runs.push_back(contend(item, settings, who, mesh, first, limit));
+    outcome.runs.push_back(contend(item, settings, who, mesh, first, faces, limit));
+    if (who.name == faces_only) faces = mesh;
     if (who.name == ourselves) limit = std::max(least_patience, patience * outcome.runs.back().seconds);
     const bool shown = std::ranges::find(item.panel, who.name) != item.panel.end();
-    if (!settings.keep_meshes && mesh != first && !shown) fs::remove(mesh);
+    if (!settings.keep_meshes && mesh != first && mesh != faces && !shown) fs::remove(mesh);
     tell(outcome.runs.back());
   }
   draw_panel(item, settings, folder, scene, outcome);

@@ -97,7 +97,7 @@ void add_meshlab(const ContestPrograms& programs, const fs::path& cloud, const f
 std::vector<Contestant> contestants(const ContestCase& item, const ContestPrograms& programs, const fs::path& cloud,
                                     const fs::path& mesh, unsigned threads) {
   std::vector<Contestant> all{ours(ourselves, {}, programs, cloud, mesh, threads)};
-  all.push_back(ours("eigencrust --surface samples", {"--surface", "samples"}, programs, cloud, mesh, threads));
+  all.push_back(ours(faces_only, {"--surface", "delaunay"}, programs, cloud, mesh, threads));
   all.push_back(ours("eigencrust --preset paper", {"--preset", "paper"}, programs, cloud, mesh, threads));
   if (item.crusts) add_crusts(programs, cloud, mesh, threads, all);
   if (!item.peers) return all;

@@ -28,8 +28,11 @@ struct Contestant {
 
 /// Name of the one that all times and sizes are relative to: the program without options.
 inline const char* const ourselves = "eigencrust";
+/// Its surface before vertices move and edges are flipped: what surfaces of other methods are compared with.
+inline const char* const faces_only = "eigencrust --surface delaunay";
 
-/// Those that the case asks for, ourselves first. Meshes go to `mesh`, what is between two commands beside it.
+/// Those that the case asks for, ourselves and faces_only first. Meshes go to `mesh`, what is between two commands
+/// beside it.
 std::vector<Contestant> contestants(const ContestCase& item, const ContestPrograms& programs,
                                     const std::filesystem::path& cloud, const std::filesystem::path& mesh,
                                     unsigned threads);

@@ -36,9 +36,10 @@ void add_real_field_cases(std::vector<Case>& cases) {
     double volume;
     std::int64_t genus;
   };
-  // Right since version 0.1.0; the volumes are its.
+  // Right since version 0.1.0; the volumes are its, but that of the frame, which its notched edges made smaller:
+  // 7883.7. Screened Poisson through the same points has 7,988 to 8,004 (depths 8 to 10, normals of either surface).
   for (const Row& row :
-       {Row{"real_tooth16.npy", "a tooth", 388.8, 0}, Row{"real_wireframe.ply", "a frame of many bars", 7883.7, 23},
+       {Row{"real_tooth16.npy", "a tooth", 388.8, 0}, Row{"real_wireframe.ply", "a frame of many bars", 8000, 23},
         Row{"real_city_94.ply", "houses from the air", 10'492, 3}}) {
     Case c = real_case(row.file, row.description, row.volume, row.genus);
     c.requirements = {equals("components", 1), equals("genus", static_cast<double>(row.genus)),

@@ -53,11 +53,12 @@ enum class GlobalSign : std::uint8_t {
   vote,     ///< long Voronoi cells beside the known outside decide; an outlier has none
   supernode ///< §3.2: the sign of the outside supernode's own component
 };
-/// Where the vertices of the mesh lie.
+/// Where the vertices of the mesh lie, and which triangles there are between them.
 enum class SurfaceKind : std::uint8_t {
   automatic, ///< in the middle of the samples around where noise was measured, else samples
-  samples,   ///< at input points
-  fitted     ///< fitted wherever the fit itself finds noise. docs/decisions/0036
+  samples,   ///< at input points; of an edge between two triangles and the other diagonal the better (decisions/0048)
+  fitted,    ///< fitted wherever the fit itself finds noise. docs/decisions/0036
+  delaunay   ///< at input points, and the triangles are faces of the Delaunay tetrahedralization: the paper's
 };
 /// How a mesh is smoothed (§3.6).
 enum class Smoothing : std::uint8_t {

@@ -451,7 +451,7 @@ class SurfaceFit {
 
 std::vector<float> noise_to_fit(const Surface& surface, const SurfaceFans& fans, const SampleModel& model,
                                 SurfaceKind kind, const Threads& threads) {
-  if (kind == SurfaceKind::samples) return {};
+  if (kind == SurfaceKind::samples || kind == SurfaceKind::delaunay) return {};
   std::vector<float> noise = noise_at_vertices(surface, fans, model, threads);
   if (kind == SurfaceKind::fitted) return noise;
   if (std::none_of(noise.begin(), noise.end(), [](float sigma) { return sigma > 0; })) return {};

@@ -41,6 +41,12 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
+/// Numbers of sides, and of corners, of triangles; see Side.
+constexpr std::uint32_t side_number(std::uint32_t triangle, std::uint32_t k) { return 3 * triangle + k; }
+constexpr std::uint32_t triangle_of_side(std::uint32_t side) { return side / 3; }
+constexpr std::uint32_t corner_of_side(std::uint32_t side) { return side % 3; }
+constexpr std::uint32_t next_side(std::uint32_t side) { return corner_of_side(side) == 2 ? side - 2 : side + 1; }
+
 /// One side of a triangle. Side 3t+k runs from corner k to corner k+1 of triangle t; the corner at its
 /// start is also numbered 3t+k.
 struct Side {
@@ -48,9 +54,9 @@ struct Side {
   std::uint32_t number;    ///< 3 t + k
   bool forward;            ///< runs from low to high
 
-  [[nodiscard]] std::uint32_t triangle() const { return number / 3; }
+  [[nodiscard]] std::uint32_t triangle() const { return triangle_of_side(number); }
   [[nodiscard]] std::uint32_t start() const { return number; }
-  [[nodiscard]] std::uint32_t end() const { return number % 3 == 2 ? number - 2 : number + 1; }
+  [[nodiscard]] std::uint32_t end() const { return next_side(number); }
   [[nodiscard]] std::uint32_t corner_at_low() const { return forward ? start() : end(); }
   [[nodiscard]] std::uint32_t corner_at_high() const { return forward ? end() : start(); }
 };

@@ -147,9 +147,9 @@ constexpr std::array<OptionEntry, 30> table{{
      "Leave out triangles that the samples do not bear out: the mesh is then open",
      [](Options& o, const std::string& text) { o.trim = parse_flag(text); },
      [](const Options& o) { return flag_text(o.trim); }},
-    {"surface", Kind::choice, Group::smoothing, "auto|samples|fitted",
+    {"surface", Kind::choice, Group::smoothing, "auto|samples|fitted|delaunay",
      "Vertices: auto (moved to the middle of the noise where some was measured), fitted (also where the fit itself "
-     "finds some), samples (input points)",
+     "finds some), samples (input points), delaunay (input points, no edge flipped)",
      [](Options& o, const std::string& text) { o.surface = parse_surface_kind(text); },
      [](const Options& o) { return to_string(o.surface); }},
     {"smooth", Kind::count, Group::smoothing, "N", "Smoothing steps; vertices then leave the samples",

@@ -32,8 +32,10 @@ constexpr Names<Questionable, 3> questionables{
     {{Questionable::before, "before"}, {Questionable::after, "after"}, {Questionable::never, "never"}}};
 constexpr Names<GlobalSign, 2> global_signs{{{GlobalSign::vote, "vote"}, {GlobalSign::supernode, "supernode"}}};
 constexpr Names<ManifoldRule, 2> manifold_rules{{{ManifoldRule::cheapest, "cheapest"}, {ManifoldRule::paper, "paper"}}};
-constexpr Names<SurfaceKind, 3> surface_kinds{
-    {{SurfaceKind::automatic, "auto"}, {SurfaceKind::samples, "samples"}, {SurfaceKind::fitted, "fitted"}}};
+constexpr Names<SurfaceKind, 4> surface_kinds{{{SurfaceKind::automatic, "auto"},
+                                               {SurfaceKind::samples, "samples"},
+                                               {SurfaceKind::fitted, "fitted"},
+                                               {SurfaceKind::delaunay, "delaunay"}}};
 constexpr Names<Smoothing, 2> smoothings{{{Smoothing::laplacian, "laplacian"}, {Smoothing::taubin, "taubin"}}};
 constexpr Names<Axis, 6> axes{{{Axis::plus_x, "+x"},
                                {Axis::minus_x, "-x"},
@@ -96,7 +98,7 @@ Options Options::of(Preset preset) {
     options.weights = Weights::paper;
     options.manifold_rule = ManifoldRule::paper;
     options.components.kind = KeepComponents::Kind::all;
-    options.surface = SurfaceKind::samples;
+    options.surface = SurfaceKind::delaunay;
   }
   return options;
 }

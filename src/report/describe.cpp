@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "evidence/evidence.h"
+#include "fit/edge_flips.h"
 #include "fit/uncross.h"
 #include "numerics/quantile.h"
 #include "points/point_results.h"
@@ -220,8 +221,8 @@ void describe(const SamplesApart& samples, Run& run) {
 void describe(const UnsupportedTriangles& unsupported, Run& run) {
   Report& report = run.report();
   report.unsupported_area = unsupported.share_of_area;
-  run.count("unsupported", static_cast<double>(std::count(unsupported.marked.begin(), unsupported.marked.end(), 1)));
   report.bridged = unsupported.bridged;
+  run.count("unsupported", static_cast<double>(std::count(unsupported.marked.begin(), unsupported.marked.end(), 1)));
   constexpr double usual = 0.1;
   if (report.unsupported_area > usual && !report.options.trim)
     run.warn(std::to_string(std::lround(100 * report.unsupported_area)) +
@@ -245,6 +246,11 @@ void describe(const PointResults& results, Run& run) {
 void describe(const UncrossCounts& counts, Run& run) {
   run.count("pairs", static_cast<double>(counts.crossings));
   run.count("eased", static_cast<double>(counts.eased));
+}
+
+void describe(const EdgeFlipCounts& counts, Run& run) {
+  run.count("triangles", static_cast<double>(counts.triangles));
+  run.count("crossings", static_cast<double>(counts.crossings));
 }
 
 void describe(const MeshSummary& mesh, Run& run) {

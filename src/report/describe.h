@@ -24,6 +24,7 @@ struct KnownBeforehand;
 struct MinimumLabels;
 struct Overlaps;
 struct PointResults;
+struct EdgeFlipCounts;
 struct UncrossCounts;
 
 void describe(const Samples& samples, Run& run);
@@ -46,6 +47,7 @@ void describe(const UnsupportedTriangles& unsupported, Run& run);
 void describe(const TurnedOver& turned, Run& run);
 void describe(const PointResults& results, Run& run);
 void describe(const UncrossCounts& counts, Run& run);
+void describe(const EdgeFlipCounts& counts, Run& run);
 void describe(const MeshSummary& mesh, Run& run);
 
 } // namespace eigencrust

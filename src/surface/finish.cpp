@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fit/bridges.h"
+#include "fit/edge_flips.h"
 #include "fit/fit.h"
 #include "fit/uncross.h"
 #include "geometry/exact_difference.h"
@@ -12,6 +13,7 @@
 #include "simplify/other_triangles.h"
 #include "surface/base.h"
 #include "surface/surface.h"
+#include "surface/trim.h"
 #include "surface/turned_over.h"
 
 namespace eigencrust {
@@ -137,17 +139,30 @@ TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, co
   return mesh;
 }
 
+/// Flips edges where no noise was measured: elsewhere it hides which way the surface bends.
+EdgeFlipCounts flip_clean_edges(Surface& surface, const SampleModel& model, const Threads& threads) {
+  const std::vector<float> noise =
+      noise_to_fit(surface, SurfaceFans(surface.mesh), model, SurfaceKind::automatic, threads);
+  std::vector<float> longest(surface.mesh.vertices.size());
+  for_each_index(threads, longest.size(), [&](std::size_t v) {
+    const bool clean = noise.empty() || noise[v] <= 0;
+    longest[v] = clean ? static_cast<float>(longest_kept) * model.spacing[surface.sample_of[v]] : 0;
+  });
+  return flip_edges(std::move(longest), surface, threads);
+}
+
 /// Fits and smoothes, and sees that nothing crosses. \return whether the vertices, in input coordinates then, moved
 bool move_vertices(Surface& surface, const PointCloud& cloud, const Scene& scene, const Context& context) {
   const auto& [options, run, threads] = context;
   run.report().moved.reset();
-  if (options.surface == SurfaceKind::samples && options.smooth == 0) return false;
+  const bool may_fit = options.surface == SurfaceKind::automatic || options.surface == SurfaceKind::fitted;
+  if (!may_fit && options.smooth == 0) return false;
   const Tetrahedralization& t = scene.tetrahedralization;
   const std::vector<Vec3> rows = input_points(surface.sample_of, t, cloud);
   std::optional<SurfaceFans> fans;
   std::vector<std::uint32_t> strays;
   bool fitted = false;
-  if (options.surface != SurfaceKind::samples)
+  if (may_fit)
     run.stage("fit", [&] {
       fans.emplace(surface.mesh);
       // What a scanner saw is somewhere, however lonely it is.
@@ -181,6 +196,10 @@ bool move_vertices(Surface& surface, const PointCloud& cloud, const Scene& scene
 TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene, const Context& context) {
   const auto& [options, run, threads] = context;
   bool moved = move_vertices(surface, cloud, scene, context);
+  // Crusts are no manifolds, and are there to be compared with. Between the faces there are no lines of sight, through
+  // others there may be.
+  if (options.method == Method::eigencrust && options.surface != SurfaceKind::delaunay && cloud.sensor_of.empty())
+    run.stage("edges", [&] { return flip_clean_edges(surface, scene.measures.model, threads); });
   run.report().simplified.reset();
   if (asks_for_other_triangles(options)) {
     const Tetrahedralization& t = scene.tetrahedralization;

@@ -365,7 +365,7 @@ TEST(FittedSurface, TinyCloudsAreFittedAsLargeOnes) {
 }
 
 TEST(FittedSurface, IsTheDefaultButOfThePaper) {
-  EXPECT_EQ(Options::of(Preset::paper).surface, SurfaceKind::samples);
+  EXPECT_EQ(Options::of(Preset::paper).surface, SurfaceKind::delaunay);
   EXPECT_EQ(Options::of(Preset::robust).surface, SurfaceKind::automatic);
 }
 
