@@ -116,13 +116,13 @@ class Columns {
 
 std::vector<Vec3> take_points(const E57Pages& pages, const E57Scan& scan, Columns& columns) {
   std::vector<Vec3> points(scan.records);
-  constexpr std::array<double Vec3::*, 3> axes = {&Vec3::x, &Vec3::y, &Vec3::z};
+  constexpr std::array<double Vec3::*, 3> members = {&Vec3::x, &Vec3::y, &Vec3::z};
   const bool is_cartesian = columns.has_all(cartesian);
   if (!is_cartesian && !columns.has_all(spherical))
     pages.fail_at(scan.xml, "a scan without cartesian or spherical coordinates", "use a file whose scans have points");
   for (std::size_t k = 0; k < 3; ++k) {
     const std::vector<double> values = columns.take(is_cartesian ? cartesian[k] : spherical[k]);
-    for (std::size_t i = 0; i < points.size(); ++i) points[i].*axes[k] = values[i];
+    for (std::size_t i = 0; i < points.size(); ++i) points[i].*members[k] = values[i];
   }
   if (!is_cartesian)
     for (Vec3& p : points) {

@@ -16,7 +16,8 @@
 namespace eigencrust::io {
 namespace {
 
-constexpr const char* remedy = "the file does not follow the 3MF specification; export it again with another program";
+constexpr const char* export_again =
+    "the file does not follow the 3MF specification; export it again with another program";
 
 /// Names in an archive count without case and leading slash.
 std::string_view bare(std::string_view name) { return name.starts_with('/') ? name.substr(1) : name; }
@@ -46,7 +47,7 @@ class Package {
     const ZipMember* member = find(name);
     for (const ZipMember& each : members_)
       if (member == nullptr && lower_case(each.name).ends_with(".model")) member = &each;
-    if (member == nullptr) file_.fail("the archive holds no 3D model", remedy);
+    if (member == nullptr) file_.fail("the archive holds no 3D model", export_again);
     return unpack_zip_member(file_, *member, budget_);
   }
 
@@ -94,7 +95,9 @@ class ModelReader {
   };
   using Colour = std::array<std::uint8_t, 4>;
 
-  [[noreturn]] void fail(const std::string& cause) const { file_.fail("the 3D model is damaged: " + cause, remedy); }
+  [[noreturn]] void fail(const std::string& cause) const {
+    file_.fail("the 3D model is damaged: " + cause, export_again);
+  }
 
   void take(std::uint64_t count) {
     if (count > budget_) file_.fail("the build repeats its parts too many times", "export one of them");

@@ -12,7 +12,7 @@ namespace eigencrust {
 namespace {
 
 // Two bytes a face: the measure need not be known better.
-constexpr double steps = std::numeric_limits<std::int16_t>::max() / (1 + FaceWeights::cost_of_isolated);
+constexpr double steps_of_cost = std::numeric_limits<std::int16_t>::max() / (1 + FaceWeights::cost_of_isolated);
 
 // Thinner in its longest edges is a tetrahedron of samples that lie in a plane and on a circle: where its centre is on
 // the way between those of its neighbours rounding decides (32 bits some hundred edges from zero). It has no say.
@@ -48,8 +48,9 @@ std::array<std::int16_t, 4> cosines(const std::array<Vec3, 4>& p, const std::arr
     const double side = dot(across[k], p[k] - on_face) >= 0 ? 1 : -1;
     const double cosine = has_no_say ? 1 : side * dot(across[k], centre - on_face) / (size[k] * radius);
     const bool costs_more = isolated[(k + 1) % 4] || isolated[(k + 2) % 4] || isolated[(k + 3) % 4];
-    result[k] = static_cast<std::int16_t>(std::lround(steps * (cosine >= -1 ? std::min(cosine, 1.0) : -1.0) -
-                                                      (costs_more ? steps * FaceWeights::cost_of_isolated : 0)));
+    result[k] =
+        static_cast<std::int16_t>(std::lround(steps_of_cost * (cosine >= -1 ? std::min(cosine, 1.0) : -1.0) -
+                                              (costs_more ? steps_of_cost * FaceWeights::cost_of_isolated : 0)));
   }
   return result;
 }
@@ -80,7 +81,7 @@ FaceWeights::FaceWeights(const Tetrahedralization& t, SampleLengthsView isolated
 }
 
 float FaceWeights::operator()(TetrahedronIndex i, std::size_t k) const {
-  return least + 1 - static_cast<float>(cosine_[i][k]) / static_cast<float>(steps);
+  return least + 1 - static_cast<float>(cosine_[i][k]) / static_cast<float>(steps_of_cost);
 }
 
 } // namespace eigencrust
