@@ -11,6 +11,7 @@
 
 #include "geometry/mesh_topology.h"
 #include "geometry/self_intersections.h"
+#include "surface/trim.h"
 
 namespace eigencrust {
 namespace {
@@ -64,11 +65,14 @@ double height_above(const Vec3& a, const Vec3& b, const Vec3& normal_a, const Ve
 /// Sides are numbered as in mesh_topology.h.
 class EdgeFlips {
  public:
-  /// \param longest of each vertex \param closed of each triangle: 1 where its edges stay
+  /// \param longest of each vertex \param view of each vertex; may be empty \param closed of each triangle: 1 where its
+  /// edges stay
   EdgeFlips(std::span<const Vec3> position, std::vector<Triangle> triangles, std::vector<float> support,
-            std::vector<float> longest, std::span<const std::uint8_t> closed, const Threads& threads)
+            std::vector<float> longest, std::span<const Vec3> view, std::span<const std::uint8_t> closed,
+            const Threads& threads)
       : position_(position),
         longest_(std::move(longest)),
+        view_(view),
         closed_(closed),
         threads_(threads),
         triangles_(std::move(triangles)),
@@ -183,9 +187,15 @@ class EdgeFlips {
     if (twin == no_index || twin < side) return false;
     if (closed_[triangle_of_side(side)] || closed_[triangle_of_side(twin)]) return false;
     const auto [a, b, c, d] = four_at(side);
-    const double most = std::min({longest_[a], longest_[b], longest_[c], longest_[d]});
-    if (c == d || !(distance(position_[c], position_[d]) < most)) return false;
+    if (c == d || !is_short({a, d, c}) || !is_short({d, b, c})) return false;
     return is_nearer(side) && keeps_shape(side) && !are_neighbours(c, d);
+  }
+
+  /// Has the triangle no edge that is too long for one of its vertices?
+  [[nodiscard]] bool is_short(const Triangle& t) const {
+    const double most = std::min({longest_[t[0]], longest_[t[1]], longest_[t[2]]});
+    const auto edge = [&](std::size_t i, std::size_t j) { return distance(position_[t[i]], position_[t[j]]); };
+    return edge(0, 1) < most && edge(1, 2) < most && edge(2, 0) < most;
   }
 
   [[nodiscard]] Vec3 area_of(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
@@ -213,8 +223,8 @@ class EdgeFlips {
            std::min(std::fabs(both), std::fabs(at.gap)) > least_gain * distance(position_[a], position_[b]);
   }
 
-  /// Are the triangles with the other diagonal no slivers, do they lie about as the two with the edge do, and do they
-  /// not lie back on their neighbours?
+  /// Are the triangles with the other diagonal no slivers, do they lie about as the two with the edge do, were they
+  /// seen, and do they not lie back on their neighbours?
   [[nodiscard]] bool keeps_shape(std::uint32_t side) const {
     const auto [a, b, c, d] = four_at(side);
     const std::uint32_t twin = twin_[side];
@@ -222,7 +232,8 @@ class EdgeFlips {
                both = first + second;
     const double least_area = least_height * squared_norm(position_[d] - position_[c]);
     // Sides by which a new triangle hangs on its neighbours: one that was of the first triangle, one of the second.
-    const auto is_good = [&](const Vec3& area, std::uint32_t of_first, std::uint32_t of_second) {
+    const auto is_good = [&](const Triangle& t, std::uint32_t of_first, std::uint32_t of_second) {
+      const Vec3 area = area_of(t[0], t[1], t[2]);
       const double size = norm(area);
       if (!(size > least_area && dot(area, both) > least_cosine * size * norm(both))) return false;
       const auto lies_back = [&](std::uint32_t outer, const Vec3& before) {
@@ -230,9 +241,16 @@ class EdgeFlips {
         const Vec3 neighbour = normal_of(triangle_of_side(twin_[outer]));
         return dot(area, neighbour) < size * std::min(most_folded, dot(before, neighbour));
       };
-      return !lies_back(of_first, first) && !lies_back(of_second, second);
+      return is_seen(t, area, size) && !lies_back(of_first, first) && !lies_back(of_second, second);
     };
-    return is_good(area_of(a, d, c), last(side), next(twin)) && is_good(area_of(d, b, c), next(side), last(twin));
+    return is_good({a, d, c}, last(side), next(twin)) && is_good({d, b, c}, next(side), last(twin));
+  }
+
+  /// Does the front of the triangle look to the sensors of its vertices?
+  [[nodiscard]] bool is_seen(const Triangle& triangle, const Vec3& area, double size) const {
+    return view_.empty() || std::ranges::all_of(triangle, [&](std::uint32_t v) {
+             return view_[v] == Vec3{} || dot(area, view_[v]) > flattest_seen * size;
+           });
   }
 
   [[nodiscard]] bool are_neighbours(std::uint32_t v, std::uint32_t other) const {
@@ -274,6 +292,7 @@ class EdgeFlips {
 
   std::span<const Vec3> position_;
   std::vector<float> longest_;           ///< of each vertex
+  std::span<const Vec3> view_;           ///< of each vertex; empty: unknown
   std::span<const std::uint8_t> closed_; ///< of each triangle
   const Threads& threads_;
   std::vector<Triangle> triangles_;
@@ -296,7 +315,8 @@ std::vector<std::uint32_t> replace(std::vector<Triangle>& triangles, std::span<c
 
 } // namespace
 
-EdgeFlipCounts flip_edges(std::vector<float> longest, Surface& surface, const Threads& threads) {
+EdgeFlipCounts flip_edges(std::vector<float> longest, std::span<const Vec3> view, Surface& surface,
+                          const Threads& threads) {
   EdgeFlipCounts counts;
   TriangleMesh& mesh = surface.mesh;
   const auto stays = [&](const Triangle& t) { return std::min({longest[t[0]], longest[t[1]], longest[t[2]]}) <= 0; };
@@ -309,7 +329,7 @@ EdgeFlipCounts flip_edges(std::vector<float> longest, Surface& surface, const Th
   std::optional<CrossingSearch> search;
   for (int attempt = 0;; ++attempt) {
     // What is as it was in the last try was tested then.
-    auto flipped = EdgeFlips(mesh.vertices, before, support, longest, closed, threads).run();
+    auto flipped = EdgeFlips(mesh.vertices, before, support, longest, view, closed, threads).run();
     const std::vector<std::uint32_t> changed = replace(mesh.triangles, flipped.first);
     surface.support = std::move(flipped.second);
     if (changed.empty()) break;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <eigencrust/stages.h>
@@ -21,8 +22,11 @@ struct EdgeFlipCounts {
 /// Flips edges between two triangles that the samples bear out, where the other diagonal of the four vertices is nearer
 /// to the surface that the normals at the vertices tell of (a data-dependent triangulation: Dyn, Levin, Rippa 1990).
 /// Vertices, rims, genus and pieces stay; support is the least of the triangles in whose place there is another; no
-/// triangle crosses another (exact test) where none did before. \param longest of each vertex: how long a new edge of
-/// its triangles may be; 0: none is flipped there
-EdgeFlipCounts flip_edges(std::vector<float> longest, Surface& surface, const Threads& threads);
+/// triangle crosses another (exact test) where none did before. \param longest of each vertex: how long an edge of
+/// its new triangles may be; 0: none is flipped there
+/// \param view of each vertex: which way its sensor is, a unit vector; it must have seen new triangles; zero: unknown;
+///        empty: all are
+EdgeFlipCounts flip_edges(std::vector<float> longest, std::span<const Vec3> view, Surface& surface,
+                          const Threads& threads);
 
 } // namespace eigencrust

@@ -139,8 +139,25 @@ TriangleMesh finish_mesh(const Surface& surface, const Tetrahedralization& t, co
   return mesh;
 }
 
+/// Which way the sensor of each vertex is, a unit vector; zero where none is known; empty where none is of any.
+std::vector<Vec3> views_of(const Surface& surface, const PointCloud& cloud, const Tetrahedralization& t) {
+  std::vector<Vec3> view;
+  if (cloud.sensor_of.empty()) return view;
+  for (const SampleIndex s : surface.sample_of) {
+    const std::uint32_t row = t.source[s], sensor = cloud.sensor_of[row];
+    Vec3 way;
+    if (sensor != PointCloud::no_sensor)
+      way = cloud.sensors[sensor].at_infinity ? cloud.sensors[sensor].place
+                                              : cloud.sensors[sensor].place - cloud.points[row];
+    const double length = norm(way);
+    view.push_back(length > 0 ? (1 / length) * way : Vec3{});
+  }
+  return view;
+}
+
 /// Flips edges where no noise was measured: elsewhere it hides which way the surface bends.
-EdgeFlipCounts flip_clean_edges(Surface& surface, const SampleModel& model, const Threads& threads) {
+EdgeFlipCounts flip_clean_edges(Surface& surface, const PointCloud& cloud, const Scene& scene, const Threads& threads) {
+  const SampleModel& model = scene.measures.model;
   const std::vector<float> noise =
       noise_to_fit(surface, SurfaceFans(surface.mesh), model, SurfaceKind::automatic, threads);
   std::vector<float> longest(surface.mesh.vertices.size());
@@ -148,7 +165,7 @@ EdgeFlipCounts flip_clean_edges(Surface& surface, const SampleModel& model, cons
     const bool clean = noise.empty() || noise[v] <= 0;
     longest[v] = clean ? static_cast<float>(longest_kept) * model.spacing[surface.sample_of[v]] : 0;
   });
-  return flip_edges(std::move(longest), surface, threads);
+  return flip_edges(std::move(longest), views_of(surface, cloud, scene.tetrahedralization), surface, threads);
 }
 
 /// Fits and smoothes, and sees that nothing crosses. \return whether the vertices, in input coordinates then, moved
@@ -196,10 +213,9 @@ bool move_vertices(Surface& surface, const PointCloud& cloud, const Scene& scene
 TriangleMesh finish(Surface surface, const PointCloud& cloud, const Scene& scene, const Context& context) {
   const auto& [options, run, threads] = context;
   bool moved = move_vertices(surface, cloud, scene, context);
-  // Crusts are no manifolds, and are there to be compared with. Between the faces there are no lines of sight, through
-  // others there may be.
-  if (options.method == Method::eigencrust && options.surface != SurfaceKind::delaunay && cloud.sensor_of.empty())
-    run.stage("edges", [&] { return flip_clean_edges(surface, scene.measures.model, threads); });
+  // Crusts are no manifolds, and are there to be compared with.
+  if (options.method == Method::eigencrust && options.surface != SurfaceKind::delaunay)
+    run.stage("edges", [&] { return flip_clean_edges(surface, cloud, scene, threads); });
   run.report().simplified.reset();
   if (asks_for_other_triangles(options)) {
     const Tetrahedralization& t = scene.tetrahedralization;

@@ -20,8 +20,6 @@ namespace {
 
 // Of a triangle that is kept; that of one with a longer edge is at most this.
 constexpr float least_support = 0.25f;
-// A scanner sees no surface at a flatter angle; triangles that do lie so lead from one depth to another.
-constexpr double flattest = 0.08716; // cosine of 85°
 
 std::array<Vec3, 3> corners(const TriangleMesh& mesh, std::size_t i) {
   const auto& [a, b, c] = mesh.triangles[i];
@@ -43,7 +41,7 @@ bool is_seen(const Tetrahedralization& t, std::span<const SightLine> lines, bool
   const double size = norm(normal);
   const auto meets = [&](const SightLine& line) {
     const Vec3 way = line.target - t.positions[line.sample];
-    return dot(way, normal) >= flattest * norm(way) * size;
+    return dot(way, normal) >= flattest_seen * norm(way) * size;
   };
   int seen = 0, unseen = 0;
   for (const std::uint32_t v : surface.mesh.triangles[i]) {

@@ -14,6 +14,9 @@ namespace eigencrust {
 
 /// In spacings: edges twice as long as a surface has them lead over what was not sampled.
 inline constexpr double longest_kept = 2 * longest_edge;
+/// Cosine of 85°: a scanner sees no surface at a flatter angle; triangles that do lie so lead from one depth to
+/// another.
+inline constexpr double flattest_seen = 0.08716;
 
 /// The triangles that the samples do not bear out (1): their support is below 1/4, or their longest edge exceeds 10
 /// times the smallest local spacing of their vertices (of isolated ones: that of the surface nearest to them), or no

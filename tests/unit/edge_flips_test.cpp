@@ -92,7 +92,7 @@ double area_across_edges(const TriangleMesh& mesh) {
 
 TEST(EdgeFlips, ARidgeGetsItsEdge) {
   Surface surface = cut_ridge();
-  const EdgeFlipCounts counts = flip_edges(anything(surface), surface, Threads(1));
+  const EdgeFlipCounts counts = flip_edges(anything(surface), {}, surface, Threads(1));
   EXPECT_EQ(counts.triangles, 2);
   EXPECT_EQ(counts.crossings, 0);
   EXPECT_EQ(surface.support, (std::vector<float>{0.5f, 0.5f, 1, 1, 1, 1}));
@@ -115,7 +115,7 @@ TEST(EdgeFlips, NotThroughWhatIsInTheWay) {
     mesh.triangles.push_back({tip + t[0], tip + t[1], tip + t[2]});
   surface.support.resize(mesh.triangles.size(), 1);
   const auto before = mesh.triangles;
-  const EdgeFlipCounts counts = flip_edges(anything(surface), surface, Threads(1));
+  const EdgeFlipCounts counts = flip_edges(anything(surface), {}, surface, Threads(1));
   EXPECT_GT(counts.crossings, 0);
   EXPECT_EQ(counts.triangles, 0);
   EXPECT_EQ(mesh.triangles, before);
@@ -127,11 +127,21 @@ TEST(EdgeFlips, WhatStaysStays) {
   for (const float longest : {0.0f, 1.9f}) { // the new edge has a length of 2
     std::vector<float> limits = anything(surface);
     limits[3] = longest;
-    EXPECT_EQ(flip_edges(limits, surface, Threads(1)).triangles, 0);
+    EXPECT_EQ(flip_edges(limits, {}, surface, Threads(1)).triangles, 0);
   }
   surface.unsupported = {1, 0, 0, 0, 0, 0};
-  EXPECT_EQ(flip_edges(anything(surface), surface, Threads(1)).triangles, 0);
+  EXPECT_EQ(flip_edges(anything(surface), {}, surface, Threads(1)).triangles, 0);
   EXPECT_EQ(surface.mesh.triangles, before);
+}
+
+TEST(EdgeFlips, OnlyToWhatItsSensorsHaveSeen) {
+  Surface surface = cut_ridge();
+  std::vector<Vec3> view(surface.mesh.vertices.size());
+  view[2] = {0, 0, 1};
+  view[3] = {0, -0.995, -0.1}; // behind the triangle on its side
+  EXPECT_EQ(flip_edges(anything(surface), view, surface, Threads(1)).triangles, 0);
+  view[3] = {0, 0.9, 0.43};
+  EXPECT_EQ(flip_edges(anything(surface), view, surface, Threads(1)).triangles, 2);
 }
 
 TEST(EdgeFlips, NearerToATorusWithTheSameVertices) {
