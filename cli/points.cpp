@@ -37,7 +37,7 @@ void add_keep_option(OptionTable& app, std::string& keep) {
 Options options_for_points(const Request& request) {
   Options options = effective_options(request);
   options.point_results = true;
-  options.surface = SurfaceKind::delaunay; // the mesh is not written
+  options.surface = SurfaceKind::automatic; // noisy samples may be eased: no vertex has to be a row
   return options;
 }
 

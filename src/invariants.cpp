@@ -111,12 +111,12 @@ Text fault_in_poles(const Tetrahedralization& t, const Poles& poles) {
 
 Text fault_in_measures(const SampleMeasures& measures, std::size_t samples) {
   const SampleModel& model = measures.model;
-  if (model.spacing.size() != samples || model.noise.size() != samples || model.isolated.size() != samples ||
-      (!measures.grid.empty() && measures.grid.size() != samples))
+  if (model.spacing.size() != samples || model.noise.size() != samples || model.input_noise.size() != samples ||
+      model.isolated.size() != samples || (!measures.grid.empty() && measures.grid.size() != samples))
     return "not each sample is measured";
   for (SampleIndex s{0}; s.value < samples; ++s.value)
-    if (!(model.spacing[s] > 0) || !(model.noise[s] >= 0) || !(model.isolated[s] >= 0) ||
-        !std::isfinite(model.noise[s]) || !std::isfinite(model.spacing[s]))
+    if (!(model.spacing[s] > 0) || !(model.noise[s] >= 0) || !(model.input_noise[s] >= model.noise[s]) ||
+        !(model.isolated[s] >= 0) || !std::isfinite(model.input_noise[s]) || !std::isfinite(model.spacing[s]))
       return numbered("no length: what was measured at sample", s.value);
   return {};
 }

@@ -38,7 +38,7 @@ void reconstruct_spectral(const PointCloud& cloud, const Context& context, Resul
   auto surface = make_surface(cloud, scene, evidence, labels, overlaps, context);
   EIGENCRUST_SOUND(surface, scene, labels, context.options);
   // Which rows lie on it, and which way they look
-  auto points = point_results(scene, surface, context);
+  auto points = point_results(cloud, scene, surface, context);
   // What only labels ask for makes room: the rest looks at samples and surface.
   scene.stars = {};
   scene.poles = {};

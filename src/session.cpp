@@ -121,7 +121,7 @@ Result Session::label(std::span<const Vec3> outside_points, std::span<const Vec3
   EIGENCRUST_SOUND(labels, scene, options);
   auto surface = make_surface(cloud, scene, evidence, labels, overlaps, context);
   EIGENCRUST_SOUND(surface, scene, labels, options);
-  auto points = point_results(scene, surface, context);
+  auto points = point_results(cloud, scene, surface, context);
   result.mesh = finish(std::move(surface), cloud, scene, context);
   check(result.mesh, cloud, scene, {.self_intersections = result.report.moved.has_value()}, context);
 

@@ -27,7 +27,7 @@ struct MoveStage {
     energy.data = labels.values();
     energy.known = p.known;
     model.spacing = SampleLengths(p.t.sample_count, static_cast<float>(spacing));
-    model.noise = SampleLengths(p.t.sample_count, 0.0f);
+    model.noise = model.input_noise = SampleLengths(p.t.sample_count, 0.0f);
     model.isolated = SampleLengths(p.t.sample_count, 0.0f);
     model.typical_spacing = spacing;
   }

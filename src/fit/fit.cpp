@@ -95,7 +95,7 @@ Vec3 limited(const Vec3& from, const Vec3& to, double farthest) {
 /// Does the model read more noise at the vertex than that many spacings?
 bool reads_more(const Surface& surface, const SampleModel& model, std::size_t v, float spacings) {
   const SampleIndex s = surface.sample_of[v];
-  return model.noise[s] > spacings * model.spacing[s];
+  return model.input_noise[s] > spacings * model.spacing[s];
 }
 
 /// Which pieces are noisy, by the samples' readings at their vertices: much in a part of the piece, or some nearly
@@ -136,7 +136,7 @@ std::vector<float> noise_at_vertices(const Surface& surface, const SurfaceFans& 
   if (quiet == n) return noise;
   const NoisyPieces pieces(surface, fans, model);
   for_each_index(threads, n, [&](std::size_t v) {
-    if (reads_more(surface, model, v, pieces.least_noise(v))) noise[v] = model.noise[surface.sample_of[v]];
+    if (reads_more(surface, model, v, pieces.least_noise(v))) noise[v] = model.input_noise[surface.sample_of[v]];
   });
   if (std::none_of(noise.begin(), noise.end(), [](float s) { return s > 0; })) return noise;
   std::vector<float> next(n);
@@ -245,7 +245,7 @@ class SurfaceFit {
         sigma_(position_.size(), 0) {
     const std::vector<Vec3> smooth = position_;
     for (std::size_t v = 0; v < position_.size(); ++v)
-      if (noise_[v] < 0) position_[v] = surface.mesh.vertices[v]; // it stays, but says which side its sample is on
+      if (noise_[v] < 0) position_[v] = own_sample(v); // it stays, but says which side its sample is on
     std::optional<NearestVertex> nearest;
     threads.run(2, [&](std::size_t k) { // one thread builds the tree
       if (k == 0)
@@ -268,10 +268,12 @@ class SurfaceFit {
       }
       move(clusters, fits_of_widths(places, clusters, chosen_.width, effort, threads_));
     }
-    std::vector<Vec3> result = surface_.mesh.vertices;
-    for (std::size_t v = 0; v < result.size(); ++v)
+    std::vector<Vec3> result(position_.size());
+    for (std::size_t v = 0; v < result.size(); ++v) {
+      result[v] = own_sample(v);
       if (noise_[v] >= 0)
         result[v] = limited(result[v], result[v] + trust_[v] * (position_[v] - result[v]), farthest(v));
+    }
     return result;
   }
 
@@ -284,6 +286,7 @@ class SurfaceFit {
       share[v] = std::min(1.0, noise_at(v) / (tangling_noise_in_spacings * spacing_at(v)));
     return share;
   }
+  [[nodiscard]] const Vec3& own_sample(std::size_t v) const { return samples_[surface_.sample_of[v].value]; }
   [[nodiscard]] double spacing_at(std::size_t v) const {
     return static_cast<double>(model_.spacing[surface_.sample_of[v]]);
   }
@@ -395,7 +398,7 @@ class SurfaceFit {
     Symmetric normals;
     const double spacing = spacing_at(v), unit = std::max(noise_at(v), least_unit_in_spacings * spacing);
     const double radius = width * unit, flat = 1 / (radius * radius), per_square = 1 / (unit * unit);
-    const Vec3 strayed = position_[v] - surface_.mesh.vertices[v];
+    const Vec3 strayed = position_[v] - own_sample(v);
     const double moved = norm(strayed);
     for (const LocalQuadric* const one : around) {
       const LocalQuadric& fit = *one;

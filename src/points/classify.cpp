@@ -139,15 +139,15 @@ Classification classify_samples(const Tetrahedralization& t, const Surface& surf
   return result;
 }
 
-void classify_by_distance(const Tetrahedralization& t, const Surface& fitted, const SampleModel& model,
+void classify_by_distance(std::span<const Vec3> samples, const Surface& fitted, const SampleModel& model,
                           std::span<const float> noise, Classification& classes, const Threads& threads) {
   const std::size_t n = fitted.sample_of.size();
   std::vector<std::uint8_t> plausible(n);
   for (std::uint32_t v = 0; v < n; ++v) plausible[v] = classes.place[fitted.sample_of[v]] == std::array{v, v, v};
   const Target target(fitted, [&](std::uint32_t v) { return plausible[v] != 0; });
-  std::vector<Target::Found> nearest(t.sample_count);
+  std::vector<Target::Found> nearest(samples.size());
   for_each_index(
-      threads, nearest.size(), [&](std::size_t i) { nearest[i] = target.nearest(t.positions.raw()[i]); }, costly_block);
+      threads, nearest.size(), [&](std::size_t i) { nearest[i] = target.nearest(samples[i]); }, costly_block);
   const double scale = noise_scale(nearest, noise);
   const auto classify = [&](std::size_t i) {
     const SampleIndex s{static_cast<std::uint32_t>(i)};
@@ -162,7 +162,7 @@ void classify_by_distance(const Tetrahedralization& t, const Surface& fitted, co
     const auto& place = classes.place[s];
     if (place[0] != place[1]) classes.place[s] = found.triangle;
   };
-  for_each_index(threads, t.sample_count, classify);
+  for_each_index(threads, samples.size(), classify);
 }
 
 } // namespace eigencrust

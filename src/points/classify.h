@@ -24,9 +24,9 @@ Classification classify_samples(const Tetrahedralization& tetrahedralization, co
                                 const SampleModel& model, const Threads& threads);
 
 /// Confidences and places again, by the distance from a surface through the middle of the noise: spikes, whose vertices
-/// are no plausible ones of `classes`, are no part of it. \param fitted the surface of `classes`, its vertices moved
-/// \param noise at its vertices
-void classify_by_distance(const Tetrahedralization& tetrahedralization, const Surface& fitted, const SampleModel& model,
+/// are no plausible ones of `classes`, are no part of it. \param samples where they came from \param fitted the surface
+/// of `classes`, its vertices moved \param noise at its vertices
+void classify_by_distance(std::span<const Vec3> samples, const Surface& fitted, const SampleModel& model,
                           std::span<const float> noise, Classification& classes, const Threads& threads);
 
 } // namespace eigencrust

@@ -9,7 +9,8 @@
 namespace eigencrust {
 namespace {
 
-PointResults results_by_row(const Scene& scene, const Surface& surface, const Threads& threads) {
+PointResults results_by_row(const PointCloud& cloud, const Scene& scene, const Surface& surface,
+                            const Threads& threads) {
   const Tetrahedralization& t = scene.tetrahedralization;
   const SampleModel& model = scene.measures.model;
   Classification classes = classify_samples(t, surface, model, threads);
@@ -20,9 +21,9 @@ PointResults results_by_row(const Scene& scene, const Surface& surface, const Th
     normals = orient_samples(t, surface, classes, scene.measures.grid, threads);
   } else {
     Surface fitted = surface;
-    const auto samples = std::span(t.positions.raw()).first(t.sample_count);
-    fitted.mesh.vertices = fitted_vertices(surface, fans, samples, model, noise, threads);
-    classify_by_distance(t, fitted, model, noise, classes, threads);
+    const SamplePlaces samples(scene, cloud, threads);
+    fitted.mesh.vertices = fitted_vertices(surface, fans, samples.all(), model, noise, threads);
+    classify_by_distance(samples.all(), fitted, model, noise, classes, threads);
     normals = orient_samples(t, fitted, classes, {}, threads); // it needs no smoothing
   }
   const std::vector<SampleIndex>& sample = scene.sample_of_row;
@@ -42,9 +43,10 @@ PointResults results_by_row(const Scene& scene, const Surface& surface, const Th
 
 } // namespace
 
-PointResults point_results(const Scene& scene, const Surface& surface, const Context& context) {
+PointResults point_results(const PointCloud& cloud, const Scene& scene, const Surface& surface,
+                           const Context& context) {
   if (!context.options.point_results) return {};
-  return context.run.stage("points", [&] { return results_by_row(scene, surface, context.threads); });
+  return context.run.stage("points", [&] { return results_by_row(cloud, scene, surface, context.threads); });
 }
 
 } // namespace eigencrust

@@ -16,6 +16,6 @@ struct PointResults {
   std::vector<Vec3> normals;
 };
 /// The stage points, if the options ask for it.
-PointResults point_results(const Scene& scene, const Surface& surface, const Context& context);
+PointResults point_results(const PointCloud& cloud, const Scene& scene, const Surface& surface, const Context& context);
 
 } // namespace eigencrust

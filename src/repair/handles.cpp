@@ -116,7 +116,7 @@ class HandleClosing {
     const SampleModel& model = moves_.scene.model;
     double noise = 0, spacing = 0;
     for (const std::uint32_t s : loop) {
-      noise += static_cast<double>(model.noise[SampleIndex{s}]);
+      noise += static_cast<double>(model.input_noise[SampleIndex{s}]);
       spacing += static_cast<double>(model.spacing[SampleIndex{s}]);
     }
     const double reach = std::clamp(noise_reach * noise / spacing, sampling_reach, widest_reach);

@@ -32,7 +32,7 @@ void describe_noise(const SampleLengths& grid, Run& run) {
 /// Where half of the samples are farther off the surface than from one another; in merged range scans they are half as
 /// far.
 void warn_of_noise(const SampleModel& model, Run& run) {
-  std::vector<float> noise = model.noise.raw(), in_spacings = noise;
+  std::vector<float> noise = model.input_noise.raw(), in_spacings = noise;
   for (std::size_t s = 0; s < in_spacings.size(); ++s)
     if (in_spacings[s] > 0) in_spacings[s] /= model.spacing.raw()[s];
   if (in_spacings.empty() || !(median(in_spacings) > 1)) return;
@@ -94,6 +94,7 @@ void describe(const SampleMeasures& measures, Run& run) {
   run.report().grid_spacing = measures.scan_grid_spacing;
   describe_noise(measures.grid, run);
   warn_of_noise(measures.model, run);
+  if (measures.model.eased > 0) run.count("sample_model", "eased", static_cast<double>(measures.model.eased));
   constexpr double least_in_sheets = 0.05; // three plates a few spacings apart have 0.15, scans 0.5 and more
   if (measures.model.sheet_share < least_in_sheets)
     run.warn(

@@ -19,7 +19,7 @@ TriangleMesh snapshot_of_samples(const Tetrahedralization& t, const SampleModel&
   const auto column = [](std::string name, const SampleLengths& lengths) {
     return make_attribute(std::move(name), std::span<const float>(lengths.raw()));
   };
-  snapshot.vertex_attributes = {column("spacing", model.spacing), column("noise", model.noise),
+  snapshot.vertex_attributes = {column("spacing", model.spacing), column("noise", model.input_noise),
                                 column("isolated", model.isolated)};
   return snapshot;
 }

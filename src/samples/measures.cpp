@@ -32,13 +32,14 @@ SampleLengths reach_for_poles(const SampleMeasures& measures) {
   return reach;
 }
 
-SampleMeasures measure(const PointCloud& cloud, const Samples& samples, const Options& options,
-                       const Threads& threads) {
+SampleMeasures measure(const PointCloud& cloud, Samples& samples, const Options& options, const Threads& threads) {
   SampleMeasures measures;
   const bool paper = options.weights == Weights::paper;
   measures.trusts_all = paper;
   const std::optional<double> noise = paper ? 0 : given_noise(options, samples.bounds.diagonal());
-  measures.model = sample_model(samples.positions.raw(), noise, threads);
+  const bool may_move = options.surface == SurfaceKind::automatic || options.surface == SurfaceKind::fitted;
+  measures.model = may_move && !paper ? eased_sample_model(samples, noise, threads)
+                                      : sample_model(samples.positions.raw(), noise, threads);
   const SampleModel& model = measures.model;
   if (options.questionable != Questionable::never)
     measures.scan_grid_spacing =

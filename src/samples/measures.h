@@ -29,7 +29,7 @@ struct SampleMeasures {
 /// How far each sample looks for its poles; 0 where the noise is below the spacing; empty: nowhere.
 SampleLengths reach_for_poles(const SampleMeasures& measures);
 
-/// \param samples of `cloud`
-SampleMeasures measure(const PointCloud& cloud, const Samples& samples, const Options& options, const Threads& threads);
+/// \param samples of `cloud`; where vertices of the mesh may move noisy ones are eased, see eased_positions()
+SampleMeasures measure(const PointCloud& cloud, Samples& samples, const Options& options, const Threads& threads);
 
 } // namespace eigencrust

@@ -55,13 +55,27 @@ bool lies_within(const Vec3& place, const LocalFrame& sheet) {
 PlaceModels::PlaceModels(std::span<const Vec3> positions, const PointTree& tree) : positions_(positions), tree_(tree) {
   for (std::size_t step = growth; sizes.back() * step * least_neighbourhoods <= positions.size() * growth;
        step *= growth) {
-    std::vector<Vec3> some;
-    some.reserve(positions.size() / step + 1);
-    for (std::size_t i = step / 2; i < positions.size(); i += step) some.push_back(positions[i]);
+    std::vector<Vec3> some = every(step, positions);
     // The vector's samples stay where they are when it is moved.
     const std::span<const Vec3> view = some;
-    coarser_.push_back({std::move(some), PointTree(view)});
+    coarser_.push_back({std::move(some), std::make_shared<const PointTree>(view)});
   }
+}
+
+PlaceModels::PlaceModels(const PlaceModels& before, std::span<const Vec3> positions)
+    : positions_(positions), tree_(before.tree_) {
+  std::size_t step = growth;
+  for (const Coarser& level : before.coarser_) {
+    coarser_.push_back({every(step, positions), level.tree});
+    step *= growth;
+  }
+}
+
+std::vector<Vec3> PlaceModels::every(std::size_t step, std::span<const Vec3> positions) {
+  std::vector<Vec3> some;
+  some.reserve(positions.size() / step + 1);
+  for (std::size_t i = step / 2; i < positions.size(); i += step) some.push_back(positions[i]);
+  return some;
 }
 
 /// Are most of the narrowest neighbourhoods flat? In noise one in seven is, by chance; on thin rods and in lattices,
@@ -102,7 +116,7 @@ PlaceModel PlaceModels::flat_at(const Vec3& place) const {
     }
     if (level < sizes.size()) return std::span(index).first(std::min(positions_.size(), sizes[level]));
     const std::size_t found =
-        coarser_[level - sizes.size()].tree.nearest(place, sizes.back(), index.data(), square.data());
+        coarser_[level - sizes.size()].tree->nearest(place, sizes.back(), index.data(), square.data());
     return std::span(index).first(found);
   };
   const auto points = [&](std::size_t level) {
@@ -122,14 +136,14 @@ PlaceModel PlaceModels::flat_at(const Vec3& place) const {
       if (const auto sheets = two_sheets(points(level), around, frame)) {
         // What lies between sheets that are seen one by one from nearby are walls of holes and ribs.
         if (level >= sizes.size() && sheets->gap * sheets->gap > square_of_reach) return {};
-        return {true, sheets->deviation};
+        return {true, sheets->deviation, true, false};
       }
       // A few samples lie in a plane by chance; the next larger neighbourhood has to agree.
       if (inner->is_flat()) {
-        if (level > 1 && is_smooth_up_close(points(level), around)) return {true, 0};
+        if (level > 1 && is_smooth_up_close(points(level), around)) return {true, 0, true, true};
         // Parts of a body side by side, as a pair of legs, are thick from afar only.
         if (inner->variance[0] > largest) return {};
-        return {true, thickness_without_growth(*inner, frame)};
+        return {true, thickness_without_growth(*inner, frame), true, level == 1};
       }
     }
     if (!is_flat && count * growth * least_neighbourhoods > positions_.size()) return {};
@@ -146,7 +160,7 @@ MeanPlane PlaceModels::mean_plane(const Vec3& place, double noise) const {
   std::vector<std::uint32_t> index;
   for (std::size_t k = coarser_.size(); k-- > 0 && index.size() < enough_around;) {
     points = coarser_[k].positions;
-    index = coarser_[k].tree.within(place, radius);
+    index = coarser_[k].tree->within(place, radius);
   }
   if (index.size() < enough_around) {
     points = positions_;

@@ -3,6 +3,7 @@
 /// How the samples around one place are spread.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct PlaceModel {
   bool is_flat = false;  ///< some neighbourhood is; otherwise nothing is known
   double noise = 0;      ///< standard deviation across the surface
   bool is_sheet = false; ///< flat, or the 20 nearest samples are
+  /// Do the 30 nearest samples lie in one flat sheet? Not in much noise, and not in little where other parts are near.
+  bool is_clear = false;
 };
 
 /// Nearly all noise is within so many standard deviations.
@@ -31,6 +34,8 @@ class PlaceModels {
  public:
   /// \param positions in the order of a space-filling curve; outlive this, as does `tree` of them
   PlaceModels(std::span<const Vec3> positions, const PointTree& tree);
+  /// The same neighbours at other places. \param before outlives this \param positions outlive this, near those before
+  PlaceModels(const PlaceModels& before, std::span<const Vec3> positions);
 
   [[nodiscard]] PlaceModel at(const Vec3& place) const;
   /// Of the samples within the bound of the noise, with Gaussian weights of 2 deviations.
@@ -40,8 +45,10 @@ class PlaceModels {
   /// Every third, ninth ... sample: wide neighbourhoods are told from as few samples as narrow ones.
   struct Coarser {
     std::vector<Vec3> positions;
-    PointTree tree;
+    std::shared_ptr<const PointTree> tree;
   };
+  /// \param step between the samples of a level \param positions of all \return of those
+  static std::vector<Vec3> every(std::size_t step, std::span<const Vec3> positions);
   [[nodiscard]] PlaceModel flat_at(const Vec3& place) const;
   [[nodiscard]] bool is_smooth_up_close(std::span<const Vec3> points, std::span<const std::uint32_t> around) const;
 

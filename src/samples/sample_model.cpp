@@ -10,18 +10,14 @@
 
 #include "geometry/nearest.h"
 #include "numerics/quantile.h"
+#include "samples/easing.h"
 #include "samples/local_frame.h"
+#include "samples/places.h"
 #include "samples/scales.h"
 
 namespace eigencrust {
 namespace {
 
-// One place is measured for so many samples along the curve.
-constexpr std::uint32_t samples_per_place = 64;
-// The noise of a place is the upper quartile of the places around: spots where nothing is told from curvature must not
-// read as free of it. The level of the surface is the median of as many. Fewer places say nothing of the whole: a small
-// body has edges everywhere.
-constexpr double smoothing_quantile = 0.75;
 // A sample is isolated when it is lonely and so many neighbours are in no plane: their smallest deviation is more than
 // so much of the second.
 constexpr std::size_t lonely_neighbours = 20;
@@ -34,8 +30,11 @@ double spacing_at(double radius, std::size_t neighbours) {
 
 double typical_of(std::vector<float> spacing) { return static_cast<double>(median(spacing)); }
 
-std::vector<float> spacings(const PointTree& tree, std::span<const Vec3> positions, const Threads& threads) {
+/// \param neighbours of all samples, set; null: not asked for
+std::vector<float> spacings(const PointTree& tree, std::span<const Vec3> positions, std::vector<Neighbours>* neighbours,
+                            const Threads& threads) {
   std::vector<float> result(positions.size());
+  if (neighbours != nullptr) neighbours->resize(positions.size());
   for_each_index(
       threads, positions.size(),
       [&](std::size_t i) {
@@ -43,63 +42,11 @@ std::vector<float> spacings(const PointTree& tree, std::span<const Vec3> positio
         std::array<double, neighbours_around + 1> square{};
         const std::size_t found = tree.nearest(positions[i], index.size(), index.data(), square.data());
         result[i] = static_cast<float>(spacing_at(std::sqrt(square[found - 1]), found - 1));
+        if (neighbours == nullptr) return;
+        Neighbours& around = (*neighbours)[i];
+        std::fill(std::copy_n(index.begin(), found, around.begin()), around.end(), static_cast<std::uint32_t>(i));
       },
       costly_block);
-  return result;
-}
-
-/// Places along the curve with what was measured there.
-struct Places {
-  std::vector<Vec3> at;
-  std::vector<PlaceModel> model;
-  std::vector<float> spacing;
-};
-
-Places measure_places(const PlaceModels& models, std::span<const Vec3> positions, std::span<const float> spacing,
-                      const Threads& threads) {
-  const std::size_t n = positions.size(), count = (n + samples_per_place - 1) / samples_per_place;
-  Places places{std::vector<Vec3>(count), std::vector<PlaceModel>(count), std::vector<float>(count)};
-  for_each_index(
-      threads, count,
-      [&](std::size_t p) {
-        const std::size_t middle = std::min(n - 1, p * samples_per_place + samples_per_place / 2);
-        places.at[p] = positions[middle];
-        places.spacing[p] = spacing[middle];
-        places.model[p] = models.at(places.at[p]);
-      },
-      costly_block);
-  return places;
-}
-
-/// What the flat places around each place say.
-struct Surroundings {
-  std::vector<float> level, noise; ///< median of the spacings, infinite where there are none; upper quartile, 0
-};
-Surroundings flat_places_around(const Places& places, const Threads& threads) {
-  std::vector<Vec3> at;
-  std::vector<std::uint32_t> number;
-  for (std::uint32_t p = 0; p < places.at.size(); ++p) {
-    if (!places.model[p].is_flat) continue;
-    at.push_back(places.at[p]);
-    number.push_back(p);
-  }
-  const std::size_t n = places.at.size();
-  Surroundings result{std::vector<float>(n, std::numeric_limits<float>::infinity()), std::vector<float>(n, 0)};
-  if (at.empty()) return result;
-  const PointTree tree(at);
-  const auto look = [&](std::size_t p) {
-    std::array<std::uint32_t, enough_around> index{};
-    std::array<double, enough_around> square{};
-    const std::size_t found = tree.nearest(places.at[p], index.size(), index.data(), square.data());
-    std::vector<float> spacing, noise;
-    for (const std::uint32_t i : std::span(index).first(found)) {
-      spacing.push_back(places.spacing[number[i]]);
-      noise.push_back(static_cast<float>(places.model[number[i]].noise));
-    }
-    result.level[p] = median(spacing);
-    result.noise[p] = quantile(noise, smoothing_quantile);
-  };
-  for_each_index(threads, n, look, costly_block);
   return result;
 }
 
@@ -134,15 +81,13 @@ void measure_planes(const PlaceModels& models, std::span<const Vec3> positions, 
   if (std::find(noisy.begin(), noisy.end(), 1) != noisy.end()) model.plane = std::move(planes);
 }
 
-} // namespace
-
-SampleModel sample_model(std::span<const Vec3> positions, std::optional<double> given, const Threads& threads) {
-  const PointTree tree(positions);
+/// All but the planes. \param neighbours see spacings()
+SampleModel measured(std::span<const Vec3> positions, const PointTree& tree, const PlaceModels& models,
+                     std::optional<double> given, std::vector<Neighbours>* neighbours, const Threads& threads) {
   SampleModel model;
-  model.spacing = SampleLengths(spacings(tree, positions, threads));
+  model.spacing = SampleLengths(spacings(tree, positions, neighbours, threads));
   model.typical_spacing = typical_of(model.spacing.raw());
-  const PlaceModels models(positions, tree);
-  const Places places = measure_places(models, positions, model.spacing.raw(), threads);
+  const Places places = measure_places(models, positions, model.spacing.raw(), {}, threads);
   if (places.at.size() >= enough_around)
     model.sheet_share = static_cast<double>(std::count_if(places.model.begin(), places.model.end(),
                                                           [](const PlaceModel& m) { return m.is_sheet; })) /
@@ -160,7 +105,35 @@ SampleModel sample_model(std::span<const Vec3> positions, std::optional<double> 
         if (model.isolated[s] > 0) model.spacing[s] = level[place];
       },
       costly_block);
+  model.input_noise = model.noise;
+  if (neighbours != nullptr) model.unclear = unclear_places(places, threads);
+  return model;
+}
+
+} // namespace
+
+SampleModel sample_model(std::span<const Vec3> positions, std::optional<double> given, const Threads& threads) {
+  const PointTree tree(positions);
+  const PlaceModels models(positions, tree);
+  SampleModel model = measured(positions, tree, models, given, nullptr, threads);
   measure_planes(models, positions, model, threads);
+  return model;
+}
+
+SampleModel eased_sample_model(Samples& samples, std::optional<double> given, const Threads& threads) {
+  const std::vector<Vec3> positions = samples.positions.raw(); // the tree's stay where they are
+  const PointTree tree(positions);
+  const PlaceModels models(positions, tree);
+  std::vector<Neighbours> neighbours;
+  SampleModel model = measured(positions, tree, models, given, &neighbours, threads);
+  const std::vector<Vec3> eased = eased_positions(samples, neighbours, model, threads);
+  if (eased.empty()) {
+    measure_planes(models, positions, model, threads);
+    return model;
+  }
+  const PlaceModels models_of_eased(models, eased);
+  take_eased(eased, models_of_eased, given, samples, model, threads);
+  measure_planes(models_of_eased, eased, model, threads);
   return model;
 }
 

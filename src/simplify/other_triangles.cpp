@@ -22,8 +22,8 @@ namespace {
 double resolve(const SurfaceLength& length, const char* name, const Report& report, const SampleModel& model,
                Run& run) {
   double sigma = 0;
-  if (length.kind == SurfaceLength::Kind::sigma && !model.noise.empty()) {
-    std::vector<float> noise = model.noise.raw();
+  if (length.kind == SurfaceLength::Kind::sigma && !model.input_noise.empty()) {
+    std::vector<float> noise = model.input_noise.raw();
     sigma = std::max(0.0, static_cast<double>(median(noise)));
   }
   const double result = length.resolve(report.bounds.diagonal(), sigma);

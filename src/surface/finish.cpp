@@ -31,15 +31,15 @@ bool is_exact_translation(const Tetrahedralization& t, const PointCloud& cloud, 
 
 /// Moves vertices to the middle of the noise, and those of strays to the middle of their bridges.
 /// \param strays see strays_on_bridges() \return whether any moved
-bool fit(Surface& surface, const SurfaceFans& fans, const Scene& scene, SurfaceKind kind,
-         std::span<const std::uint32_t> strays, const Threads& threads) {
-  const Tetrahedralization& t = scene.tetrahedralization;
-  const SampleModel& model = scene.measures.model;
+bool fit(Surface& surface, const SurfaceFans& fans, std::span<const Vec3> samples, const SampleModel& model,
+         SurfaceKind kind, std::span<const std::uint32_t> strays, const Threads& threads) {
   const std::vector<float> noise = noise_to_fit(surface, fans, model, kind, threads);
   if (noise.empty() && strays.empty()) return false;
-  const auto samples = std::span(t.positions.raw()).first(t.sample_count);
-  std::vector<Vec3> fitted =
-      noise.empty() ? surface.mesh.vertices : fitted_vertices(surface, fans, samples, model, noise, threads);
+  std::vector<Vec3> fitted;
+  if (noise.empty())
+    for (const SampleIndex s : surface.sample_of) fitted.push_back(samples[s.value]);
+  else
+    fitted = fitted_vertices(surface, fans, samples, model, noise, threads);
   flatten_bridges(strays, fans, fitted);
   const bool moved = fitted != surface.mesh.vertices;
   surface.mesh.vertices = std::move(fitted);
@@ -66,16 +66,16 @@ MovedReport moved_report(std::span<const Vec3> before, std::span<const Vec3> aft
   return report;
 }
 
-/// No crossings, and no piece that turned over: pieces that did are back at their rows, and what crosses these moves
-/// on.
-UncrossCounts settle_moved(const std::vector<Vec3>& rows, const SampleModel& model, const SurfaceFans& fans,
+/// No crossings, and no piece that turned over: pieces that did are back where they were triangulated, and what crosses
+/// these moves on.
+UncrossCounts settle_moved(const std::vector<Vec3>& before, const SampleModel& model, const SurfaceFans& fans,
                            TriangleMesh& mesh, const Threads& threads) {
-  UncrossCounts counts = uncross(rows, model.typical_spacing, fans, mesh, threads);
+  UncrossCounts counts = uncross(before, model.typical_spacing, fans, mesh, threads);
   for (;;) { // a piece that is back does not move any more
     const std::vector<Vec3> tested = mesh.vertices;
-    take_back_turned(rows, fans, mesh, threads);
+    take_back_turned(before, fans, mesh, threads);
     if (mesh.vertices == tested) return counts;
-    const UncrossCounts again = uncross(rows, model.typical_spacing, fans, mesh, threads);
+    const UncrossCounts again = uncross(before, model.typical_spacing, fans, mesh, threads);
     counts.crossings += again.crossings;
     counts.eased += again.eased;
     counts.left = again.left;
@@ -90,12 +90,22 @@ std::vector<Vec3> input_points(std::span<const SampleIndex> sample_of, const Tet
   return points;
 }
 
-/// Puts the vertices into input coordinates, those that were not moved bit for bit.
+/// Puts the vertices into input coordinates, those that are where their rows are bit for bit.
 void to_input_coordinates(Surface& surface, const Tetrahedralization& t, const std::vector<Vec3>& rows) {
   for (std::size_t v = 0; v < rows.size(); ++v) {
     Vec3& place = surface.mesh.vertices[v];
-    place = place == t.positions[surface.sample_of[v]] ? rows[v] : place + t.origin;
+    place = place == rows[v] - t.origin ? rows[v] : place + t.origin; // as samples are made of rows
   }
+}
+
+/// Where the vertices were triangulated, in input coordinates: faces of one tetrahedralization do not cross there.
+std::vector<Vec3> triangulated_places(const Surface& surface, const Tetrahedralization& t,
+                                      const std::vector<Vec3>& rows) {
+  Surface there;
+  there.sample_of = surface.sample_of;
+  for (const SampleIndex s : surface.sample_of) there.mesh.vertices.push_back(t.positions[s]);
+  to_input_coordinates(there, t, rows);
+  return std::move(there.mesh.vertices);
 }
 
 /// \param moved are the vertices in input coordinates already?
@@ -176,6 +186,7 @@ bool move_vertices(Surface& surface, const PointCloud& cloud, const Scene& scene
   if (!may_fit && options.smooth == 0) return false;
   const Tetrahedralization& t = scene.tetrahedralization;
   const std::vector<Vec3> rows = input_points(surface.sample_of, t, cloud);
+  const std::vector<Vec3> before = triangulated_places(surface, t, rows);
   std::optional<SurfaceFans> fans;
   std::vector<std::uint32_t> strays;
   bool fitted = false;
@@ -185,21 +196,22 @@ bool move_vertices(Surface& surface, const PointCloud& cloud, const Scene& scene
       // What a scanner saw is somewhere, however lonely it is.
       if (cloud.sensor_of.empty() && !scene.measures.trusts_all)
         strays = strays_on_bridges(surface, *fans, scene.measures.model, threads);
-      fitted = fit(surface, *fans, scene, options.surface, strays, threads);
+      fitted = fit(surface, *fans, SamplePlaces(scene, cloud, threads).all(), scene.measures.model, options.surface,
+                   strays, threads);
     });
-  if (!fitted && options.smooth == 0) return false;
+  if (!fitted && before == rows && options.smooth == 0) return false;
   if (options.smooth > 0)
     run.stage("smoothing", [&] {
       if (!fans) fans.emplace(surface.mesh);
       smooth(surface.mesh, options.smoothing, options.smooth, threads);
       to_input_coordinates(surface, t, rows); // where this rounds, neighbours could meet
-      return take_back_turned(rows, *fans, surface.mesh, threads);
+      return take_back_turned(before, *fans, surface.mesh, threads);
     });
   else
     to_input_coordinates(surface, t, rows);
   std::uint64_t crossing = 0;
   run.stage("crossings", [&] {
-    const UncrossCounts counts = settle_moved(rows, scene.measures.model, *fans, surface.mesh, threads);
+    const UncrossCounts counts = settle_moved(before, scene.measures.model, *fans, surface.mesh, threads);
     crossing = counts.left;
     return counts;
   });

@@ -47,4 +47,13 @@ Scene make_scene(const PointCloud& cloud, const Context& context) {
   return scene;
 }
 
+SamplePlaces::SamplePlaces(const Scene& scene, const PointCloud& cloud, const Threads& threads) {
+  const Tetrahedralization& t = scene.tetrahedralization;
+  all_ = std::span(t.positions.raw()).first(t.sample_count);
+  if (scene.measures.model.eased == 0) return;
+  own_.resize(t.sample_count);
+  for_each_index(threads, own_.size(), [&](std::size_t s) { own_[s] = cloud.points[t.source.raw()[s]] - t.origin; });
+  all_ = own_;
+}
+
 } // namespace eigencrust

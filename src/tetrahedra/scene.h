@@ -22,4 +22,17 @@ struct Scene {
 /// \throws Error{input} where there are no tetrahedra
 Scene make_scene(const PointCloud& cloud, const Context& context);
 
+/// Where the samples came from, relative to the origin: some may be triangulated elsewhere, see eased_positions().
+class SamplePlaces {
+ public:
+  /// \param scene of `cloud`; outlives this
+  SamplePlaces(const Scene& scene, const PointCloud& cloud, const Threads& threads);
+  /// One for each sample.
+  [[nodiscard]] std::span<const Vec3> all() const { return all_; }
+
+ private:
+  std::vector<Vec3> own_; ///< where they differ from those that are triangulated
+  std::span<const Vec3> all_;
+};
+
 } // namespace eigencrust

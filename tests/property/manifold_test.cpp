@@ -48,7 +48,8 @@ TetrahedronLabels after_all_moves(const Prepared& p, const TetrahedronLabels& be
   clouds::MoveStage stage(p, before, 0.2, threads);
   clouds::Random random(seed);
   for (std::uint32_t s = 0; s < p.t.sample_count; ++s) {
-    stage.model.noise[SampleIndex{s}] = static_cast<float>(0.04 * static_cast<double>(seed % 4));
+    stage.model.noise[SampleIndex{s}] = stage.model.input_noise[SampleIndex{s}] =
+        static_cast<float>(0.04 * static_cast<double>(seed % 4));
     stage.model.isolated[SampleIndex{s}] = random.uniform() < 0.02 ? 1.0f : 0.0f;
   }
   Moves moves = stage.moves();

@@ -12,23 +12,15 @@
 #include <functional>
 
 #include "clouds.h"
-#include "counter_random.h"
 #include "fit/local_quadric.h"
 #include "fit/sample_clusters.h"
+#include "noisy.h"
 
 namespace eigencrust {
 namespace {
 
+using clouds::noisy;
 using clouds::Points;
-
-/// Every coordinate moved by a normal deviate.
-Points noisy(Points points, double sigma, std::uint64_t seed) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const tools::CounterRandom random(seed, 0, i);
-    points[i] = points[i] + Vec3{sigma * random.normal(0), sigma * random.normal(2), sigma * random.normal(4)};
-  }
-  return points;
-}
 
 /// Spacing of so many samples of the unit sphere.
 double spacing_of(std::size_t n) { return std::sqrt(4 * std::numbers::pi / static_cast<double>(n)); }
@@ -120,10 +112,12 @@ TEST(FittedSurface, VerticesGoToTheMiddleOfTheNoiseAndKeepWhatIsSaidOfThem) {
     const Points points = noisy(clouds::sphere(n), sigma * spacing_of(n), 1);
     const Result samples = reconstructed(points, SurfaceKind::samples),
                  fitted = reconstructed(points, SurfaceKind::automatic);
-    ASSERT_EQ(fitted.mesh.triangles, samples.mesh.triangles);
-    ASSERT_EQ(fitted.mesh.vertices.size(), samples.mesh.vertices.size());
-    EXPECT_EQ(find_attribute(fitted.mesh.vertex_attributes, "source_index")->values,
-              find_attribute(samples.mesh.vertex_attributes, "source_index")->values);
+    if (sigma <= 0.5) { // eased samples have other tetrahedra
+      ASSERT_EQ(fitted.mesh.triangles, samples.mesh.triangles);
+      ASSERT_EQ(fitted.mesh.vertices.size(), samples.mesh.vertices.size());
+      EXPECT_EQ(find_attribute(fitted.mesh.vertex_attributes, "source_index")->values,
+                find_attribute(samples.mesh.vertex_attributes, "source_index")->values);
+    }
     const double left = sigma > 0.5 ? 0.3 : 0.2;
     EXPECT_LT(mean_error(fitted.mesh, from_unit_sphere), left * mean_error(samples.mesh, from_unit_sphere)) << sigma;
     EXPECT_EQ(fitted.report.mesh.self_intersections, 0);

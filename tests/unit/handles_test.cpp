@@ -123,7 +123,9 @@ struct Solid : clouds::MoveStage {
       : MoveStage(prepared, clouds::HandMade(prepared.t.tetrahedra.size(), 1).done(), 0.15) {
   } // as far as the points are apart
   /// \param noise in spacings
-  void set_noise(float noise) { model.noise = SampleLengths(p.t.sample_count, noise * model.spacing.raw().front()); }
+  void set_noise(float noise) {
+    model.noise = model.input_noise = SampleLengths(p.t.sample_count, noise * model.spacing.raw().front());
+  }
   std::uint64_t close() {
     Moves engine = moves();
     const std::uint64_t closed = close_handles(engine).closed;

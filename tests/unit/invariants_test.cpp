@@ -23,6 +23,7 @@ struct Stage {
     scene.measures.model = sample_model(p.t.positions.raw(), 0.0, Threads(1));
     scene.measures.model.spacing.raw().resize(p.t.sample_count);
     scene.measures.model.noise.raw().resize(p.t.sample_count);
+    scene.measures.model.input_noise.raw().resize(p.t.sample_count);
     scene.measures.model.isolated.raw().resize(p.t.sample_count);
     evidence.named = evidence.labels = p.known;
     scene.tetrahedralization = std::move(p.t);

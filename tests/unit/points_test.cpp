@@ -38,6 +38,7 @@ SampleModel even_model(const Scene& scene, const SampleLengths& grid_spacing) {
   model.isolated = SampleLengths(scene.t.sample_count, 0);
   model.noise = SampleLengths(scene.t.sample_count, 0);
   for (SampleIndex s{0}; s.value < grid_spacing.size(); ++s.value) model.noise[s] = grid_spacing[s] / 1.2f;
+  model.input_noise = model.noise;
   return model;
 }
 Answer ask(const Scene& scene, const SampleModel& model, const SampleLengths& grid_spacing, unsigned threads = 1) {
