@@ -26,7 +26,7 @@ constexpr double clean_in_spacings = 0.1; // but for so much
 // Neighbours weigh as a Gaussian of so many spacings does: narrower than walls that can still be told from noise.
 constexpr double width_in_spacings = 1.1;
 // What is left goes the way of what is taken away: both together are so many times the root of their squares.
-constexpr double whole_noise = 1.45;
+constexpr double whole_noise = 1.6;
 // What samples say of a place say those of so many places along the curve on either side, too.
 constexpr std::size_t places_beside = 4, ask_one_in = 8;
 
@@ -143,8 +143,9 @@ void take_eased(std::span<const Vec3> eased, const PlaceModels& models, std::opt
     float &noise = model.noise.raw()[i], after = left[place];
     if (given) after = static_cast<float>(std::sqrt(std::max(0.0, *given * *given - moved[place])));
     if (!(after < std::min(noise, SampleModel::noisy_in_spacings * model.spacing.raw()[i]))) continue;
+    const auto deviation = static_cast<double>(after); // squares of floats can vanish
     model.input_noise.raw()[i] =
-        std::min(noise, static_cast<float>(whole_noise * std::sqrt(static_cast<double>(after * after) + moved[place])));
+        std::min(noise, static_cast<float>(whole_noise * std::sqrt(deviation * deviation + moved[place])));
     noise = after;
     result[i] = eased[i];
   }
