@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <type_traits>
 #include <unordered_map>
 #include <utility>
 
@@ -30,10 +32,10 @@ constexpr double whole_noise = 1.6;
 // What samples say of a place say those of so many places along the curve on either side, too.
 constexpr std::size_t places_beside = 4, ask_one_in = 8;
 
-/// First and behind last sample.
-std::pair<std::size_t, std::size_t> samples_around(std::size_t place, std::size_t samples) {
+/// First and behind last.
+std::pair<std::ptrdiff_t, std::ptrdiff_t> places_around(std::size_t place, std::size_t places) {
   const std::size_t first = place < places_beside ? 0 : place - places_beside;
-  return {first * samples_per_place, std::min(samples, (place + places_beside + 1) * samples_per_place)};
+  return {static_cast<std::ptrdiff_t>(first), static_cast<std::ptrdiff_t>(std::min(places, place + places_beside + 1))};
 }
 
 /// Where a sample goes, relative to the origin.
@@ -75,22 +77,32 @@ std::vector<std::uint8_t> noisy_places(std::span<const Vec3> positions, std::spa
         beside[k] = std::sqrt(narrow.variance[0]) > clean_in_spacings * static_cast<double>(model.spacing.raw()[i]);
       },
       costly_block);
+  constexpr auto asked = static_cast<std::ptrdiff_t>(samples_per_place / ask_one_in); // at each place
+  const auto all = static_cast<std::ptrdiff_t>(beside.size());
   for (std::size_t p = 0; p < result.size(); ++p) {
-    const auto [begin, end] = samples_around(p, positions.size());
-    const auto first = beside.begin() + static_cast<std::ptrdiff_t>(begin / ask_one_in),
-               last = beside.begin() + static_cast<std::ptrdiff_t>((end + ask_one_in - 1) / ask_one_in);
+    const auto [begin, end] = places_around(p, result.size());
+    const auto first = beside.begin() + begin * asked, last = beside.begin() + std::min(all, end * asked);
     result[p] = model.unclear[p] && 2 * std::count(first, last, 1) > last - first;
   }
   return result;
 }
 
-/// Mean square of how far the samples of each place, and of those beside it, moved.
+/// Mean square of how far the samples of each place, and of those beside it, moved; negative where none of it did.
 std::vector<double> squares_moved(std::span<const Vec3> before, std::span<const Vec3> after, std::size_t places) {
-  std::vector<double> result(places, 0);
+  std::vector<double> sum(places, 0), result(places, -1);
+  std::vector<std::size_t> moved(places, 0);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    sum[i / samples_per_place] += squared_norm(after[i] - before[i]);
+    moved[i / samples_per_place] += after[i] != before[i];
+  }
   for (std::size_t p = 0; p < places; ++p) {
-    const auto [begin, end] = samples_around(p, before.size());
-    for (std::size_t i = begin; i < end; ++i) result[p] += squared_norm(after[i] - before[i]);
-    result[p] /= static_cast<double>(end - begin);
+    if (moved[p] == 0) continue;
+    const auto [begin, end] = places_around(p, places);
+    const auto of = [&](const auto& all) {
+      using T = std::decay_t<decltype(all[0])>;
+      return std::accumulate(all.begin() + begin, all.begin() + end, T{});
+    };
+    result[p] = of(sum) / static_cast<double>(of(moved));
   }
   return result;
 }
@@ -140,6 +152,7 @@ void take_eased(std::span<const Vec3> eased, const PlaceModels& models, std::opt
   std::vector<Vec3> result = positions;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const std::size_t place = i / samples_per_place;
+    if (moved[place] < 0) continue;
     float &noise = model.noise.raw()[i], after = left[place];
     if (given) after = static_cast<float>(std::sqrt(std::max(0.0, *given * *given - moved[place])));
     if (!(after < std::min(noise, SampleModel::noisy_in_spacings * model.spacing.raw()[i]))) continue;
