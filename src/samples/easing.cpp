@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
-#include <type_traits>
 #include <unordered_map>
 #include <utility>
 
@@ -87,22 +85,15 @@ std::vector<std::uint8_t> noisy_places(std::span<const Vec3> positions, std::spa
   return result;
 }
 
-/// Mean square of how far the samples of each place, and of those beside it, moved; negative where none of it did.
+/// Mean square of how far the samples of each place, and of those beside it, moved.
 std::vector<double> squares_moved(std::span<const Vec3> before, std::span<const Vec3> after, std::size_t places) {
-  std::vector<double> sum(places, 0), result(places, -1);
-  std::vector<std::size_t> moved(places, 0);
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    sum[i / samples_per_place] += squared_norm(after[i] - before[i]);
-    moved[i / samples_per_place] += after[i] != before[i];
-  }
+  std::vector<double> result(places, 0);
   for (std::size_t p = 0; p < places; ++p) {
-    if (moved[p] == 0) continue;
-    const auto [begin, end] = places_around(p, places);
-    const auto of = [&](const auto& all) {
-      using T = std::decay_t<decltype(all[0])>;
-      return std::accumulate(all.begin() + begin, all.begin() + end, T{});
-    };
-    result[p] = of(sum) / static_cast<double>(of(moved));
+    const auto [first, last] = places_around(p, places);
+    const std::size_t begin = static_cast<std::size_t>(first) * samples_per_place,
+                      end = std::min(before.size(), static_cast<std::size_t>(last) * samples_per_place);
+    for (std::size_t i = begin; i < end; ++i) result[p] += squared_norm(after[i] - before[i]);
+    result[p] /= static_cast<double>(end - begin);
   }
   return result;
 }
@@ -143,16 +134,15 @@ std::vector<Vec3> eased_positions(const Samples& samples, std::span<const Neighb
   return result;
 }
 
-void take_eased(std::span<const Vec3> eased, const PlaceModels& models, std::optional<double> given, Samples& samples,
-                SampleModel& model, const Threads& threads) {
+void take_eased(std::span<const Vec3> eased, const PlaceModels& models, Places places, std::optional<double> given,
+                Samples& samples, SampleModel& model, const Threads& threads) {
   std::vector<Vec3>& positions = samples.positions.raw();
-  const std::vector<float> left =
-      flat_places_around(measure_places(models, eased, model.spacing.raw(), model.unclear, threads), threads).noise;
+  measure_again(models, eased, model.unclear, places, threads);
+  const std::vector<float> left = flat_places_around(places, threads).noise;
   const std::vector<double> moved = squares_moved(positions, eased, left.size());
   std::vector<Vec3> result = positions;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const std::size_t place = i / samples_per_place;
-    if (moved[place] < 0) continue;
     float &noise = model.noise.raw()[i], after = left[place];
     if (given) after = static_cast<float>(std::sqrt(std::max(0.0, *given * *given - moved[place])));
     if (!(after < std::min(noise, SampleModel::noisy_in_spacings * model.spacing.raw()[i]))) continue;

@@ -12,6 +12,7 @@
 
 #include <eigencrust/stages.h>
 
+#include "samples/places.h"
 #include "samples/sample_model.h"
 #include "samples/scales.h"
 
@@ -28,9 +29,10 @@ std::vector<Vec3> eased_positions(const Samples& samples, std::span<const Neighb
 
 /// Moves those samples, and takes the noise that is left of them into the model, where it is clearly less than before:
 /// elsewhere what was taken for noise is shape, or so much that neighbours do not know better.
-/// \param eased see above \param models of them \param noise of all samples where it is given
-void take_eased(std::span<const Vec3> eased, const PlaceModels& models, std::optional<double> noise, Samples& samples,
-                SampleModel& model, const Threads& threads);
+/// \param eased see above \param models of them \param places as they were measured \param noise of all samples where
+/// it is given
+void take_eased(std::span<const Vec3> eased, const PlaceModels& models, Places places, std::optional<double> noise,
+                Samples& samples, SampleModel& model, const Threads& threads);
 
 /// Samples that came to lie on one another, or on one that did not move, go back to where they were.
 /// \param before distinct \param after as many

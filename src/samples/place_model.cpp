@@ -18,8 +18,6 @@ namespace {
 // from a third, a ninth ... of the samples.
 constexpr std::size_t narrowest = 10, growth = 3;
 constexpr std::array<std::size_t, 3> sizes{narrowest, narrowest* growth, narrowest* growth* growth};
-// Up to so many levels, 270 samples, a sheet alone is flat in noise of a spacing, what other parts are near to is not.
-constexpr std::size_t clear_levels = 3;
 // Neighbourhoods that are not flat must fit so many times into the cloud: a larger one is as thick as the object.
 constexpr std::size_t least_neighbourhoods = 20;
 
@@ -145,7 +143,7 @@ PlaceModel PlaceModels::flat_at(const Vec3& place) const {
         if (level > 1 && is_smooth_up_close(points(level), around)) return {true, 0, true, true};
         // Parts of a body side by side, as a pair of legs, are thick from afar only.
         if (inner->variance[0] > largest) return {};
-        return {true, thickness_without_growth(*inner, frame), true, level <= clear_levels};
+        return {true, thickness_without_growth(*inner, frame), true, level == 1};
       }
     }
     if (!is_flat && count * growth * least_neighbourhoods > positions_.size()) return {};

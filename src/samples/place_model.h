@@ -17,7 +17,7 @@ struct PlaceModel {
   bool is_flat = false;  ///< some neighbourhood is; otherwise nothing is known
   double noise = 0;      ///< standard deviation across the surface
   bool is_sheet = false; ///< flat, or the 20 nearest samples are
-  /// Do no more than 270 of the nearest samples lie in one flat sheet? Not where other parts are near.
+  /// Do the 30 nearest samples lie in one flat sheet? Not in much noise, and not in little where other parts are near.
   bool is_clear = false;
 };
 

@@ -19,19 +19,23 @@ constexpr double smoothing_quantile = 0.75;
 
 } // namespace
 
+void measure_again(const PlaceModels& models, std::span<const Vec3> positions, std::span<const std::uint8_t> wanted,
+                   Places& places, const Threads& threads) {
+  const auto measure = [&](std::size_t p) {
+    if (!wanted[p]) return;
+    places.at[p] = positions[std::min(positions.size() - 1, p * samples_per_place + samples_per_place / 2)];
+    places.model[p] = models.at(places.at[p]);
+  };
+  for_each_index(threads, places.at.size(), measure, costly_block);
+}
+
 Places measure_places(const PlaceModels& models, std::span<const Vec3> positions, std::span<const float> spacing,
-                      std::span<const std::uint8_t> wanted, const Threads& threads) {
+                      const Threads& threads) {
   const std::size_t n = positions.size(), count = (n + samples_per_place - 1) / samples_per_place;
   Places places{std::vector<Vec3>(count), std::vector<PlaceModel>(count), std::vector<float>(count)};
-  for_each_index(
-      threads, count,
-      [&](std::size_t p) {
-        const std::size_t middle = std::min(n - 1, p * samples_per_place + samples_per_place / 2);
-        places.at[p] = positions[middle];
-        places.spacing[p] = spacing[middle];
-        if (wanted.empty() || wanted[p]) places.model[p] = models.at(places.at[p]);
-      },
-      costly_block);
+  for (std::size_t p = 0; p < count; ++p)
+    places.spacing[p] = spacing[std::min(n - 1, p * samples_per_place + samples_per_place / 2)];
+  measure_again(models, positions, std::vector<std::uint8_t>(count, 1), places, threads);
   return places;
 }
 

@@ -23,9 +23,11 @@ struct Places {
   std::vector<PlaceModel> model;
   std::vector<float> spacing;
 };
-/// \param wanted of each place, the others are not flat; empty: all
 Places measure_places(const PlaceModels& models, std::span<const Vec3> positions, std::span<const float> spacing,
-                      std::span<const std::uint8_t> wanted, const Threads& threads);
+                      const Threads& threads);
+/// Again, where `wanted`, at other positions.
+void measure_again(const PlaceModels& models, std::span<const Vec3> positions, std::span<const std::uint8_t> wanted,
+                   Places& places, const Threads& threads);
 
 /// What the flat places around each place say.
 struct FlatPlaces {

@@ -81,13 +81,14 @@ void measure_planes(const PlaceModels& models, std::span<const Vec3> positions, 
   if (std::find(noisy.begin(), noisy.end(), 1) != noisy.end()) model.plane = std::move(planes);
 }
 
-/// All but the planes. \param neighbours see spacings()
+/// All but the planes. \param neighbours see spacings() \param places set
 SampleModel measured(std::span<const Vec3> positions, const PointTree& tree, const PlaceModels& models,
-                     std::optional<double> given, std::vector<Neighbours>* neighbours, const Threads& threads) {
+                     std::optional<double> given, std::vector<Neighbours>* neighbours, Places& places,
+                     const Threads& threads) {
   SampleModel model;
   model.spacing = SampleLengths(spacings(tree, positions, neighbours, threads));
   model.typical_spacing = typical_of(model.spacing.raw());
-  const Places places = measure_places(models, positions, model.spacing.raw(), {}, threads);
+  places = measure_places(models, positions, model.spacing.raw(), threads);
   if (places.at.size() >= enough_around)
     model.sheet_share = static_cast<double>(std::count_if(places.model.begin(), places.model.end(),
                                                           [](const PlaceModel& m) { return m.is_sheet; })) /
@@ -115,7 +116,8 @@ SampleModel measured(std::span<const Vec3> positions, const PointTree& tree, con
 SampleModel sample_model(std::span<const Vec3> positions, std::optional<double> given, const Threads& threads) {
   const PointTree tree(positions);
   const PlaceModels models(positions, tree);
-  SampleModel model = measured(positions, tree, models, given, nullptr, threads);
+  Places places;
+  SampleModel model = measured(positions, tree, models, given, nullptr, places, threads);
   measure_planes(models, positions, model, threads);
   return model;
 }
@@ -125,14 +127,15 @@ SampleModel eased_sample_model(Samples& samples, std::optional<double> given, co
   const PointTree tree(positions);
   const PlaceModels models(positions, tree);
   std::vector<Neighbours> neighbours;
-  SampleModel model = measured(positions, tree, models, given, &neighbours, threads);
+  Places places;
+  SampleModel model = measured(positions, tree, models, given, &neighbours, places, threads);
   const std::vector<Vec3> eased = eased_positions(samples, neighbours, model, threads);
   if (eased.empty()) {
     measure_planes(models, positions, model, threads);
     return model;
   }
   const PlaceModels models_of_eased(models, eased);
-  take_eased(eased, models_of_eased, given, samples, model, threads);
+  take_eased(eased, models_of_eased, std::move(places), given, samples, model, threads);
   measure_planes(models_of_eased, eased, model, threads);
   return model;
 }
