@@ -19,8 +19,8 @@ constexpr std::uint8_t steps_back = 3;
 
 class Uncrossing {
  public:
-  Uncrossing(std::span<const Vec3> before, double spacing, const SurfaceFans& fans, TriangleMesh& mesh,
-             const Threads& threads)
+  Uncrossing(std::span<const Vec3> before, std::span<const Vec3> rows, double spacing, const SurfaceFans& fans,
+             TriangleMesh& mesh, const Threads& threads)
       : before_(before),
         fitted_(mesh.vertices),
         spacing_(spacing),
@@ -32,7 +32,7 @@ class Uncrossing {
     for_each_index(threads, movable_.size(), [&](std::size_t v) {
       if (mesh_.vertices[v] == before_[v]) return;
       movable_[v] = 1;
-      mesh_.vertices[v] = rounded(mesh_.vertices[v]);
+      if (rows.empty() || mesh_.vertices[v] != rows[v]) mesh_.vertices[v] = rounded(mesh_.vertices[v]);
     });
   }
 
@@ -128,8 +128,8 @@ class Uncrossing {
 } // namespace
 
 UncrossCounts uncross(std::span<const Vec3> before, double spacing, const SurfaceFans& fans, TriangleMesh& mesh,
-                      const Threads& threads) {
-  return Uncrossing(before, spacing, fans, mesh, threads).run();
+                      const Threads& threads, std::span<const Vec3> rows) {
+  return Uncrossing(before, rows, spacing, fans, mesh, threads).run();
 }
 
 } // namespace eigencrust

@@ -25,8 +25,8 @@ struct UncrossCounts {
 /// moved stay \param spacing coordinates are rounded to float where that moves them by less than a thousandth of it, so
 /// that a
 ///        file of floats holds what was tested
-/// \param fans of `mesh`
+/// \param fans of `mesh` \param rows of the vertices, which are not rounded there; empty: they are where they were
 UncrossCounts uncross(std::span<const Vec3> before, double spacing, const SurfaceFans& fans, TriangleMesh& mesh,
-                      const Threads& threads);
+                      const Threads& threads, std::span<const Vec3> rows = {});
 
 } // namespace eigencrust

@@ -34,13 +34,12 @@ bool is_exact_translation(const Tetrahedralization& t, const PointCloud& cloud, 
 bool fit(Surface& surface, const SurfaceFans& fans, std::span<const Vec3> samples, const SampleModel& model,
          SurfaceKind kind, std::span<const std::uint32_t> strays, const Threads& threads) {
   const std::vector<float> noise = noise_to_fit(surface, fans, model, kind, threads);
-  if (noise.empty() && strays.empty()) return false;
   std::vector<Vec3> fitted;
   if (noise.empty())
-    for (const SampleIndex s : surface.sample_of) fitted.push_back(samples[s.value]);
+    for (const SampleIndex s : surface.sample_of) fitted.push_back(samples[s.value]); // eased ones go back, too
   else
     fitted = fitted_vertices(surface, fans, samples, model, noise, threads);
-  flatten_bridges(strays, fans, fitted);
+  if (!strays.empty()) flatten_bridges(strays, fans, fitted);
   const bool moved = fitted != surface.mesh.vertices;
   surface.mesh.vertices = std::move(fitted);
   return moved;
@@ -68,14 +67,14 @@ MovedReport moved_report(std::span<const Vec3> before, std::span<const Vec3> aft
 
 /// No crossings, and no piece that turned over: pieces that did are back where they were triangulated, and what crosses
 /// these moves on.
-UncrossCounts settle_moved(const std::vector<Vec3>& before, const SampleModel& model, const SurfaceFans& fans,
-                           TriangleMesh& mesh, const Threads& threads) {
-  UncrossCounts counts = uncross(before, model.typical_spacing, fans, mesh, threads);
+UncrossCounts settle_moved(const std::vector<Vec3>& before, const std::vector<Vec3>& rows, const SampleModel& model,
+                           const SurfaceFans& fans, TriangleMesh& mesh, const Threads& threads) {
+  UncrossCounts counts = uncross(before, model.typical_spacing, fans, mesh, threads, rows);
   for (;;) { // a piece that is back does not move any more
     const std::vector<Vec3> tested = mesh.vertices;
     take_back_turned(before, fans, mesh, threads);
     if (mesh.vertices == tested) return counts;
-    const UncrossCounts again = uncross(before, model.typical_spacing, fans, mesh, threads);
+    const UncrossCounts again = uncross(before, model.typical_spacing, fans, mesh, threads, rows);
     counts.crossings += again.crossings;
     counts.eased += again.eased;
     counts.left = again.left;
@@ -211,7 +210,7 @@ bool move_vertices(Surface& surface, const PointCloud& cloud, const Scene& scene
     to_input_coordinates(surface, t, rows);
   std::uint64_t crossing = 0;
   run.stage("crossings", [&] {
-    const UncrossCounts counts = settle_moved(before, scene.measures.model, *fans, surface.mesh, threads);
+    const UncrossCounts counts = settle_moved(before, rows, scene.measures.model, *fans, surface.mesh, threads);
     crossing = counts.left;
     return counts;
   });

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "clouds.h"
+#include "noisy.h"
 #include "source_folder.h"
 
 namespace eigencrust {
@@ -238,6 +239,24 @@ TEST(OrdinaryParts, AScrapIsNoSuccess) {
       EXPECT_THAT(error.cause(), testing::ContainsRegex("only [1-9][0-9]* of 3025 samples lie on the surface"));
     }
   }
+}
+
+TEST(OrdinaryParts, ANoisyFenceOnACleanBlockIsNotFittedAndStaysAtItsRows) {
+  // Less than a tenth of the vertices are noisy, which may be curvature. The fence is eased all the same.
+  Points points = clouds::moved(clouds::cube_surface(140), {-36, -68, -140});
+  const auto in_fence = [](const Vec3& p) { return p.x >= 0 && p.x <= 67 && p.y >= 0 && p.y <= 4; };
+  std::erase_if(points, [&](const Vec3& p) { return p.z == 0 && in_fence(p); });
+  Points fence = clouds::fence();
+  std::erase_if(fence, [](const Vec3& p) { return p.z < 0.5; });
+  points = clouds::joined(std::move(points), clouds::noisy(std::move(fence), 0.4, 3));
+  const Result result = reconstruct(clouds::cloud_of(points));
+  EXPECT_EQ(result.report.mesh.genus, 7);
+  EXPECT_EQ(result.report.mesh.components, 1);
+  const Attribute& source = *find_attribute(result.mesh.vertex_attributes, "source_index");
+  std::size_t moved = 0;
+  for (std::size_t v = 0; v < result.mesh.vertices.size(); ++v)
+    moved += result.mesh.vertices[v] != points[static_cast<std::size_t>(attribute_value(source, v))];
+  EXPECT_LT(moved, 500); // of 8,000; these would cross
 }
 
 TEST(OrdinaryParts, NothingReachesForTheStrayPointsUnderTheTeapot) {

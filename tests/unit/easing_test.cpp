@@ -18,31 +18,9 @@
 namespace eigencrust {
 namespace {
 
+using clouds::fence;
 using clouds::noisy;
 using clouds::Points;
-
-/// A sample for each unit of the area of eight square bars between two rails, four spacings thick, five apart.
-constexpr double bar = 4, apart = 9, height = 60, width = 7 * apart + bar;
-Points fence() {
-  std::vector<std::array<Vec3, 2>> parts{{Vec3{0, 0, 0}, Vec3{width, bar, bar}},
-                                         {Vec3{0, 0, height}, Vec3{width, bar, height + bar}}};
-  for (double x = 0; x < width; x += apart) parts.push_back({Vec3{x, 0, bar}, Vec3{x + bar, bar, height}});
-  clouds::Random random(3);
-  Points points;
-  for (const auto& [lo, hi] : parts) {
-    const Vec3 size = hi - lo, x{size.x, 0, 0}, y{0, size.y, 0}, z{0, 0, size.z};
-    for (const auto& [u, v] : {std::pair{x, y}, std::pair{y, z}, std::pair{x, z}})
-      for (const Vec3& corner : {lo, hi - u - v}) clouds::cover(corner, u, v, random, points);
-  }
-  std::erase_if(points, [&](const Vec3& p) {
-    return std::count_if(parts.begin(), parts.end(), [&](const auto& part) {
-             const auto& [lo, hi] = part;
-             return p.x >= lo.x && p.x <= hi.x && p.y >= lo.y && p.y <= hi.y && p.z >= lo.z && p.z <= hi.z;
-           }) > 1;
-  });
-  return points;
-}
-constexpr double volume_of_fence = bar * bar * (2 * width + 8 * (height - bar));
 
 struct Eased {
   Samples samples;
@@ -62,7 +40,7 @@ TEST(Easing, ThinBarsInNoiseAreNeitherFilledNorCut) {
     EXPECT_EQ(m.components, 1) << seed;
     EXPECT_EQ(m.genus, 7) << seed;
     EXPECT_EQ(m.self_intersections, 0) << seed;
-    EXPECT_NEAR(m.volume / volume_of_fence, 1, 0.06) << seed;
+    EXPECT_NEAR(m.volume / clouds::volume_of_fence, 1, 0.06) << seed;
   }
 }
 
