@@ -28,7 +28,7 @@ constexpr const char* about =
     "  eigencrust-robustness --preset robust --preset paper --cases outliers/,torus-cut --json robustness.json";
 
 struct Settings {
-  std::string data, field, json, table, meshes, pictures;
+  std::string data, field, surface = to_string(RunnerOptions().surface), json, table, meshes, pictures;
   std::vector<std::string> patterns, presets;
   bool list = false, quick = false;
   unsigned threads = 0;
@@ -65,6 +65,7 @@ void run(const Settings& s, const std::vector<std::string>& command) {
   const std::vector<Case> cases = select_cases(all_cases(), s.patterns, s.quick);
   if (s.list) return list(cases);
   RunnerOptions options;
+  options.surface = parse_surface_kind(s.surface);
   options.meshes = s.meshes;
   options.pictures = s.pictures;
   if (!s.presets.empty()) options.presets.clear();
@@ -74,6 +75,8 @@ void run(const Settings& s, const std::vector<std::string>& command) {
   std::string selection = s.quick ? "--quick" : "";
   for (const std::string& pattern : s.patterns)
     selection.append(selection.empty() ? "--cases " : " --cases ").append(pattern);
+  if (options.surface != RunnerOptions().surface)
+    selection.append(selection.empty() ? "--surface " : " --surface ").append(s.surface);
 
   Sources sources(s.data, s.threads, s.field);
   std::vector<Outcome> outcomes;
@@ -107,6 +110,7 @@ int main(int argc, char** argv) {
   app.add_flag("--quick", s.quick, "Only cases under 100,000 points");
   app.add_flag("--list", s.list, "List the cases and what they must show, run nothing");
   app.add_option("--preset", s.presets, "robust or paper; repeatable [robust]")->allow_extra_args(false);
+  app.add_option("--surface", s.surface, "samples, auto, fitted or delaunay")->capture_default_str();
   app.add_option("--json", s.json, "File for every figure, seed and option");
   app.add_option("--table", s.table, "File for the table in Markdown; without any file it goes to stdout");
   app.add_option("--meshes", s.meshes, "Folder for the resulting meshes");

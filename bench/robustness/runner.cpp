@@ -46,7 +46,7 @@ std::string error_of(Work&& work) {
 void run_preset(const Case& item, const Scene& scene, Sources& sources, const RunnerOptions& options, Run& run) {
   Options how = Options::of(run.preset);
   how.threads = sources.threads();
-  how.surface = SurfaceKind::samples; // what is kept of the samples is what the table is about
+  how.surface = options.surface;
   if (item.how) item.how(how);
   Result result = reconstruct(scene.cloud, how);
   run.report = result.report;

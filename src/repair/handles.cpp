@@ -23,8 +23,10 @@ constexpr double widest_reach = 5;
 // In spacings. Samples show a tunnel where they stand at half of its radius (Amenta and Bern's r = 1/2), 4π around it:
 // a narrower one may be a gap between them. A wider one is meant.
 constexpr double sampling_reach = 2;
-// Longer loops go around what is there.
+// Longer loops go around what is there; they are worth nothing, but other ones may be found at them.
 constexpr std::uint32_t longest_loop = 100;
+// Edges from a sample to all that shorter ones through it, of those that are worth something, go to.
+constexpr auto widest_radius = static_cast<std::uint32_t>(std::numbers::pi * widest_reach) + 1;
 // Tetrahedra of a disc for each unit of what closing the handle is worth: each costs a good part of one.
 constexpr double tetrahedra_per_worth = 8;
 class HandleClosing {
@@ -88,7 +90,7 @@ class HandleClosing {
     const auto root = std::find_if(loop.begin(), loop.end(),
                                    [&](std::uint32_t s) { return moves_.labels().on_surface(VertexIndex{s}); });
     if (root == loop.end()) return false;
-    const auto radius = static_cast<std::uint32_t>((loop.size() + 1) / 2);
+    const auto radius = std::min(widest_radius, static_cast<std::uint32_t>((loop.size() + 1) / 2));
     const auto loops = nearby.at(*root, radius, moves_.scene.threads);
     return std::any_of(loops.begin(), loops.end(), [&](const Loop& near) { return close(near); });
   }

@@ -182,11 +182,11 @@ bool Moves::turn_back(TetrahedronIndex i) {
   const std::size_t then = priced_.now();
   priced_.turn(i);
   const auto& v = scene.t.tetrahedra[i];
-  const bool same =
-      std::all_of(v.begin(), v.end(), [&](VertexIndex s) { return scene.t.is_corner(s) || link_.is_disc(s); });
-  if (priced_.back_with_euler(then) != 0 || !same) return false;
-  priced_.turn(i);
-  return true;
+  if (priced_.euler_change(i) == 0 &&
+      std::all_of(v.begin(), v.end(), [&](VertexIndex s) { return scene.t.is_corner(s) || link_.is_disc(s); }))
+    return true;
+  priced_.back_to(then);
+  return false;
 }
 
 void Moves::make(const Outcome& outcome) {

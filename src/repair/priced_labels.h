@@ -26,6 +26,9 @@ class PricedLabels {
   /// What turning it would add to the cost.
   [[nodiscard]] double cost_of(TetrahedronIndex i) const;
 
+  /// What turning it would add to the Euler characteristic of the surface.
+  [[nodiscard]] std::int64_t euler_change(TetrahedronIndex i) const;
+
   /// Energy, prices of the samples and of long triangles, less those of the beginning.
   [[nodiscard]] double cost() const { return cost_; }
   [[nodiscard]] double price(VertexIndex s) const { return static_cast<double>(price_[s]); }
@@ -51,7 +54,6 @@ class PricedLabels {
   }
   void flip(TetrahedronIndex i);
   [[nodiscard]] double price_of_length(TetrahedronIndex i, std::size_t k) const;
-  [[nodiscard]] std::int64_t euler_change(TetrahedronIndex i) const;
   [[nodiscard]] bool rest_of_ring(TetrahedronIndex i, std::size_t a, std::size_t b, Label label) const;
 
   const Tetrahedralization& t_;

@@ -18,6 +18,9 @@ namespace {
 // from a third, a ninth ... of the samples.
 constexpr std::size_t narrowest = 10, growth = 3;
 constexpr std::array<std::size_t, 3> sizes{narrowest, narrowest* growth, narrowest* growth* growth};
+// Wider neighbourhoods of clear places are no thicker than narrower ones, but for chance: their variance is not so many
+// times as large.
+constexpr double thicker = 1.5;
 // Neighbourhoods that are not flat must fit so many times into the cloud: a larger one is as thick as the object.
 constexpr std::size_t least_neighbourhoods = 20;
 
@@ -35,11 +38,23 @@ double thickness_without_growth(const LocalFrame& inner, const LocalFrame& outer
   return std::sqrt(std::max(0.0, inner.variance[0] - slope * inner_width));
 }
 
+/// Is a place whose neighbourhood of that level is flat, as is the one before, a clear one?
+bool is_clear(std::size_t level, const LocalFrame& inner, const LocalFrame& outer) {
+  return level < sizes.size() || (level == sizes.size() && outer.variance[0] < thicker * inner.variance[0]);
+}
+
 /// In a ball much smaller than the noise samples lie as in a solid; the flatter they lie, the thinner it must be:
 /// 1 / thickness² = 1 / σ² + 1 / width² of noise cut by a ball, both as if they were Gaussian.
 double largest_variance_of_noise(const LocalFrame& frame) {
   const double smaller = frame.variance[0], larger = frame.variance[1];
   return larger > smaller ? smaller * larger / (larger - smaller) : std::numeric_limits<double>::infinity();
+}
+
+std::vector<Vec3> every(std::size_t step, std::span<const Vec3> positions) {
+  std::vector<Vec3> some;
+  some.reserve(positions.size() / step + 1);
+  for (std::size_t i = step / 2; i < positions.size(); i += step) some.push_back(positions[i]);
+  return some;
 }
 
 /// Is the place no farther from the plane of the neighbourhood than noise explains?
@@ -52,30 +67,20 @@ bool lies_within(const Vec3& place, const LocalFrame& sheet) {
 
 } // namespace
 
-PlaceModels::PlaceModels(std::span<const Vec3> positions, const PointTree& tree) : positions_(positions), tree_(tree) {
+PlaceModels::PlaceModels(std::span<const Vec3> positions, const Threads& threads)
+    : positions_(positions), densities_(1) {
   for (std::size_t step = growth; sizes.back() * step * least_neighbourhoods <= positions.size() * growth;
-       step *= growth) {
-    std::vector<Vec3> some = every(step, positions);
-    // The vector's samples stay where they are when it is moved.
-    const std::span<const Vec3> view = some;
-    coarser_.push_back({std::move(some), std::make_shared<const PointTree>(view)});
-  }
+       step *= growth)
+    densities_.push_back({every(step, positions), nullptr});
+  threads.run(densities_.size(),
+              [&](std::size_t k) { densities_[k].tree = std::make_shared<const PointTree>(points(k)); });
 }
 
 PlaceModels::PlaceModels(const PlaceModels& before, std::span<const Vec3> positions)
-    : positions_(positions), tree_(before.tree_) {
+    : positions_(positions), densities_{{{}, before.densities_.front().tree}} {
   std::size_t step = growth;
-  for (const Coarser& level : before.coarser_) {
-    coarser_.push_back({every(step, positions), level.tree});
-    step *= growth;
-  }
-}
-
-std::vector<Vec3> PlaceModels::every(std::size_t step, std::span<const Vec3> positions) {
-  std::vector<Vec3> some;
-  some.reserve(positions.size() / step + 1);
-  for (std::size_t i = step / 2; i < positions.size(); i += step) some.push_back(positions[i]);
-  return some;
+  for (std::size_t k = 1; k < before.densities_.size(); ++k, step *= growth)
+    densities_.push_back({every(step, positions), before.densities_[k].tree});
 }
 
 /// Are most of the narrowest neighbourhoods flat? In noise one in seven is, by chance; on thin rods and in lattices,
@@ -86,7 +91,7 @@ bool PlaceModels::is_smooth_up_close(std::span<const Vec3> points, std::span<con
   std::size_t flat = 0;
   for (std::size_t k = 0; k < narrowest; ++k) {
     const Vec3& at = points[around[k * (around.size() - 1) / (narrowest - 1)]];
-    const std::size_t found = tree_.nearest(at, sizes[0], index.data(), square.data());
+    const std::size_t found = tree().nearest(at, sizes[0], index.data(), square.data());
     flat += local_frame(positions_, std::span(index).first(found), at).is_flat();
   }
   return 2 * flat > narrowest;
@@ -99,7 +104,7 @@ PlaceModel PlaceModels::at(const Vec3& place) const {
   // Sheets a few spacings apart, as those of plates and fins, are flat in no wider neighbourhood.
   std::array<std::uint32_t, sheet_neighbours> index{};
   std::array<double, sheet_neighbours> square{};
-  const std::size_t found = tree_.nearest(place, index.size(), index.data(), square.data());
+  const std::size_t found = tree().nearest(place, index.size(), index.data(), square.data());
   model.is_sheet = local_frame(positions_, std::span(index).first(found), place).is_flat();
   return model;
 }
@@ -108,42 +113,40 @@ PlaceModel PlaceModels::flat_at(const Vec3& place) const {
   std::array<std::uint32_t, sizes.back()> index{};
   std::array<double, sizes.back()> square{};
   double square_of_reach = 0; // of 30 neighbours
+  const auto density = [&](std::size_t level) { return std::max(level + 1, sizes.size()) - sizes.size(); };
   const auto neighbours = [&](std::size_t level) -> std::span<const std::uint32_t> {
     if (level == 0) {
-      const std::size_t found = tree_.nearest(place, sizes.back(), index.data(), square.data());
+      const std::size_t found = tree().nearest(place, sizes.back(), index.data(), square.data());
       square_of_reach = square[std::min(found, sizes[1]) - 1];
       return std::span(index).first(std::min(found, sizes[0]));
     }
     if (level < sizes.size()) return std::span(index).first(std::min(positions_.size(), sizes[level]));
     const std::size_t found =
-        coarser_[level - sizes.size()].tree->nearest(place, sizes.back(), index.data(), square.data());
+        densities_[density(level)].tree->nearest(place, sizes.back(), index.data(), square.data());
     return std::span(index).first(found);
   };
-  const auto points = [&](std::size_t level) {
-    return level < sizes.size() ? positions_ : std::span<const Vec3>(coarser_[level - sizes.size()].positions);
-  };
-  const std::size_t levels = sizes.size() + coarser_.size();
+  const std::size_t levels = sizes.size() + densities_.size() - 1;
   std::optional<LocalFrame> inner;
   std::size_t count = sizes[0];
   double largest = std::numeric_limits<double>::infinity();
   for (std::size_t level = 0; level < levels; ++level, count *= growth) {
     const auto around = neighbours(level);
-    const LocalFrame frame = local_frame(points(level), around, place);
+    const LocalFrame frame = local_frame(points(density(level)), around, place);
     const bool is_flat = frame.is_flat();
     if (is_flat && level > 0) {
       // Large neighbourhoods of far strays reach the object, which looks flat from there.
       if (!lies_within(place, frame)) return {};
-      if (const auto sheets = two_sheets(points(level), around, frame)) {
+      if (const auto sheets = two_sheets(points(density(level)), around, frame)) {
         // What lies between sheets that are seen one by one from nearby are walls of holes and ribs.
         if (level >= sizes.size() && sheets->gap * sheets->gap > square_of_reach) return {};
         return {true, sheets->deviation, true, false};
       }
       // A few samples lie in a plane by chance; the next larger neighbourhood has to agree.
       if (inner->is_flat()) {
-        if (level > 1 && is_smooth_up_close(points(level), around)) return {true, 0, true, true};
+        if (level > 1 && is_smooth_up_close(points(density(level)), around)) return {true, 0, true, true};
         // Parts of a body side by side, as a pair of legs, are thick from afar only.
         if (inner->variance[0] > largest) return {};
-        return {true, thickness_without_growth(*inner, frame), true, level == 1};
+        return {true, thickness_without_growth(*inner, frame), true, is_clear(level, *inner, frame)};
       }
     }
     if (!is_flat && count * growth * least_neighbourhoods > positions_.size()) return {};
@@ -156,27 +159,23 @@ PlaceModel PlaceModels::flat_at(const Vec3& place) const {
 
 MeanPlane PlaceModels::mean_plane(const Vec3& place, double noise) const {
   const double radius = static_cast<double>(noise_bound) * noise, deviation = deviation_in_sigmas * noise;
-  std::span<const Vec3> points = positions_;
+  std::span<const Vec3> some;
   std::vector<std::uint32_t> index;
-  for (std::size_t k = coarser_.size(); k-- > 0 && index.size() < enough_around;) {
-    points = coarser_[k].positions;
-    index = coarser_[k].tree->within(place, radius);
+  for (std::size_t k = densities_.size(); k-- > 0 && index.size() < enough_around;) {
+    some = points(k);
+    index = densities_[k].tree->within(place, radius);
   }
   if (index.size() < enough_around) {
-    points = positions_;
-    index = tree_.within(place, radius);
-  }
-  if (index.size() < enough_around) {
-    index.resize(std::min(enough_around, points.size()));
+    index.resize(std::min(enough_around, some.size()));
     std::vector<double> square(index.size());
-    tree_.nearest(place, index.size(), index.data(), square.data());
+    tree().nearest(place, index.size(), index.data(), square.data());
   }
   std::sort(index.begin(), index.end()); // sums in one order
   std::vector<double> weight;
   weight.reserve(index.size());
   for (const std::uint32_t i : index)
-    weight.push_back(std::exp(-squared_norm(points[i] - place) / (2 * deviation * deviation)));
-  const LocalFrame frame = local_frame(points, index, place, weight);
+    weight.push_back(std::exp(-squared_norm(some[i] - place) / (2 * deviation * deviation)));
+  const LocalFrame frame = local_frame(some, index, place, weight);
   if (!is_finite(frame.mean)) return {}; // all are too far away to weigh anything
   return {frame.mean, frame.axis[0]};
 }

@@ -17,6 +17,9 @@ namespace {
 // body has edges everywhere.
 constexpr double smoothing_quantile = 0.75;
 
+// More than one in so many of the places around are not clear; fewer are not by chance.
+constexpr std::size_t one_in_unclear = 3;
+
 } // namespace
 
 void measure_again(const PlaceModels& models, std::span<const Vec3> positions, std::span<const std::uint8_t> wanted,
@@ -75,7 +78,7 @@ std::vector<std::uint8_t> unclear_places(const Places& places, const Threads& th
     std::array<double, enough_around> square{};
     const auto around = std::span(index).first(tree.nearest(places.at[p], index.size(), index.data(), square.data()));
     const auto unclear = std::count_if(around.begin(), around.end(), [&](auto q) { return !places.model[q].is_clear; });
-    result[p] = 2 * static_cast<std::size_t>(unclear) > around.size();
+    result[p] = one_in_unclear * static_cast<std::size_t>(unclear) > around.size();
   };
   for_each_index(threads, result.size(), look, costly_block);
   return result;

@@ -35,7 +35,7 @@ struct FlatPlaces {
 };
 FlatPlaces flat_places_around(const Places& places, const Threads& threads);
 
-/// Which places lie where many are not clear, flat or not; see PlaceModel.
+/// Which places lie where more than a third are not clear, flat or not; see PlaceModel.
 std::vector<std::uint8_t> unclear_places(const Places& places, const Threads& threads);
 
 } // namespace eigencrust

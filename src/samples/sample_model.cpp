@@ -82,9 +82,9 @@ void measure_planes(const PlaceModels& models, std::span<const Vec3> positions, 
 }
 
 /// All but the planes. \param neighbours see spacings() \param places set
-SampleModel measured(std::span<const Vec3> positions, const PointTree& tree, const PlaceModels& models,
-                     std::optional<double> given, std::vector<Neighbours>* neighbours, Places& places,
-                     const Threads& threads) {
+SampleModel measured(std::span<const Vec3> positions, const PlaceModels& models, std::optional<double> given,
+                     std::vector<Neighbours>* neighbours, Places& places, const Threads& threads) {
+  const PointTree& tree = models.tree();
   SampleModel model;
   model.spacing = SampleLengths(spacings(tree, positions, neighbours, threads));
   model.typical_spacing = typical_of(model.spacing.raw());
@@ -114,21 +114,19 @@ SampleModel measured(std::span<const Vec3> positions, const PointTree& tree, con
 } // namespace
 
 SampleModel sample_model(std::span<const Vec3> positions, std::optional<double> given, const Threads& threads) {
-  const PointTree tree(positions);
-  const PlaceModels models(positions, tree);
+  const PlaceModels models(positions, threads);
   Places places;
-  SampleModel model = measured(positions, tree, models, given, nullptr, places, threads);
+  SampleModel model = measured(positions, models, given, nullptr, places, threads);
   measure_planes(models, positions, model, threads);
   return model;
 }
 
 SampleModel eased_sample_model(Samples& samples, std::optional<double> given, const Threads& threads) {
-  const std::vector<Vec3> positions = samples.positions.raw(); // the tree's stay where they are
-  const PointTree tree(positions);
-  const PlaceModels models(positions, tree);
+  const std::vector<Vec3> positions = samples.positions.raw(); // those of the trees stay where they are
+  const PlaceModels models(positions, threads);
   std::vector<Neighbours> neighbours;
   Places places;
-  SampleModel model = measured(positions, tree, models, given, &neighbours, places, threads);
+  SampleModel model = measured(positions, models, given, &neighbours, places, threads);
   const std::vector<Vec3> eased = eased_positions(samples, neighbours, model, threads);
   if (eased.empty()) {
     measure_planes(models, positions, model, threads);

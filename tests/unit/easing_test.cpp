@@ -83,6 +83,16 @@ TEST(Easing, WhereItLeavesMuchNoiseSamplesStay) {
   EXPECT_LT(Eased(noisy(clouds::sphere(n), 3 * std::sqrt(12.5 / n), 2)).model.eased, n / 100);
 }
 
+TEST(Easing, FlatFacesStayInNoiseOfASpacing) {
+  clouds::Random random(4);
+  Points cube; // a sample for each unit of area
+  for (const auto& [u, v] : {std::pair{Vec3{100, 0, 0}, Vec3{0, 100, 0}},
+                             {Vec3{0, 100, 0}, Vec3{0, 0, 100}},
+                             {Vec3{0, 0, 100}, Vec3{100, 0, 0}}})
+    for (const Vec3& corner : {Vec3{}, Vec3{100, 100, 100} - u - v}) clouds::cover(corner, u, v, random, cube);
+  EXPECT_LT(Eased(noisy(cube, 1, 2)).model.eased, cube.size() / 10); // 97 % where 30 neighbours are asked
+}
+
 TEST(Easing, WithoutNoiseAllStay) {
   for (const Points& points : {clouds::sphere(8000), clouds::cube_surface(20), clouds::torus(3, 1, 120, 40), fence()}) {
     const Eased o(points);

@@ -171,8 +171,7 @@ TEST(PlaceModels, PlacesOfFarOutliersAreNotFlat) {
     const std::size_t surface = points.size();
     for (int i = 0; i < 100; ++i)
       points.push_back({random.uniform(0, 200), random.uniform(0, 200), random.uniform(15, 100)});
-    const PointTree tree(points);
-    const PlaceModels models(points, tree);
+    const PlaceModels models(points, Threads(2));
     std::size_t flat_outliers = 0, flat_places = 0;
     for (std::size_t row = surface; row < points.size(); ++row) flat_outliers += models.at(points[row]).is_flat;
     for (std::size_t row = 0; row < surface; row += 400) flat_places += models.at(points[row]).is_flat;
@@ -186,8 +185,7 @@ TEST(PlaceModels, TiltedExactPlanesAreFlatEverywhere) {
   for (const Vec3& shift : {Vec3{}, Vec3{1e6, 2e6, 3e5}}) {
     Points points;
     for (const Vec3& p : grid(60)) points.push_back(p.x * Vec3{0.6, 0.48, 0.64} + p.y * Vec3{-0.8, 0.36, 0.48} + shift);
-    const PointTree tree(points);
-    const PlaceModels models(points, tree);
+    const PlaceModels models(points, Threads(2));
     EXPECT_TRUE(std::all_of(points.begin(), points.end(), [&](const Vec3& p) { return models.at(p).is_flat; }));
   }
 }
