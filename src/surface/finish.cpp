@@ -184,8 +184,6 @@ bool move_vertices(Surface& surface, const PointCloud& cloud, const Scene& scene
   const bool may_fit = options.surface == SurfaceKind::automatic || options.surface == SurfaceKind::fitted;
   if (!may_fit && options.smooth == 0) return false;
   const Tetrahedralization& t = scene.tetrahedralization;
-  const std::vector<Vec3> rows = input_points(surface.sample_of, t, cloud);
-  const std::vector<Vec3> before = triangulated_places(surface, t, rows);
   std::optional<SurfaceFans> fans;
   std::vector<std::uint32_t> strays;
   bool fitted = false;
@@ -198,6 +196,8 @@ bool move_vertices(Surface& surface, const PointCloud& cloud, const Scene& scene
       fitted = fit(surface, *fans, SamplePlaces(scene, cloud, threads).all(), scene.measures.model, options.surface,
                    strays, threads);
     });
+  const std::vector<Vec3> rows = input_points(surface.sample_of, t, cloud); // not before the fit, which takes memory
+  const std::vector<Vec3> before = triangulated_places(surface, t, rows);
   if (!fitted && before == rows && options.smooth == 0) return false;
   if (options.smooth > 0)
     run.stage("smoothing", [&] {
