@@ -45,7 +45,7 @@ struct Outcome {
 struct RunnerOptions {
   std::vector<Preset> presets{Preset::robust};
   SurfaceKind surface = SurfaceKind::samples; ///< what is kept of the samples is what the table is about
-  std::filesystem::path meshes, pictures; ///< folders; empty: not kept
+  std::filesystem::path meshes, pictures;     ///< folders; empty: not kept
 };
 
 /// Runs one case. What goes wrong is in the outcome, nothing is thrown.
