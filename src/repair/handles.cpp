@@ -23,9 +23,9 @@ constexpr double widest_reach = 5;
 // In spacings. Samples show a tunnel where they stand at half of its radius (Amenta and Bern's r = 1/2), 4π around it:
 // a narrower one may be a gap between them. A wider one is meant.
 constexpr double sampling_reach = 2;
-// Longer loops go around what is there; they are worth nothing, but other ones may be found at them.
+// Longer loops go around what is there.
 constexpr std::uint32_t longest_loop = 100;
-// Edges from a sample to all that shorter ones through it, of those that are worth something, go to.
+// No loop that is worth something goes farther from any of its samples, in edges.
 constexpr auto widest_radius = static_cast<std::uint32_t>(std::numbers::pi * widest_reach) + 1;
 // Tetrahedra of a disc for each unit of what closing the handle is worth: each costs a good part of one.
 constexpr double tetrahedra_per_worth = 8;

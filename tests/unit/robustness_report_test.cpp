@@ -72,6 +72,13 @@ TEST(RobustnessRunner, MeasuresEveryPreset) {
   EXPECT_EQ(outcome.runs[1].report.options.preset, Preset::paper);
 }
 
+TEST(RobustnessRunner, TheSurfaceIsThatOfTheOptions) {
+  RunnerOptions options;
+  EXPECT_EQ(run(sphere_case(), options).runs.at(0).report.options.surface, SurfaceKind::samples);
+  options.surface = SurfaceKind::automatic;
+  EXPECT_EQ(run(sphere_case(), options).runs.at(0).report.options.surface, SurfaceKind::automatic);
+}
+
 TEST(RobustnessRunner, WhatThrowsIsARow) {
   Case no_cloud = sphere_case(), no_volume = sphere_case();
   no_cloud.make = [](Sources&, std::uint64_t) -> Scene { throw std::runtime_error("the dog ate it"); };
