@@ -6,6 +6,7 @@
 #include <CGAL/Simple_cartesian.h>
 
 #include <array>
+#include <limits>
 
 #include "geometry/predicates.h"
 
@@ -18,15 +19,21 @@ using Number = CGAL::Mpzf;
 using Number = CGAL::Exact_rational;
 #endif
 
-Vec3 rational_circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+/// The circumcentre as seen from the first point.
+struct Centre {
+  Vec3 position;
+  double squared_loss; ///< of the digits lost: 1 where the rounding of double is all
+};
+
+Centre rational_centre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   using Exact = CGAL::Simple_cartesian<CGAL::Exact_rational>;
   const auto exact = [](const Vec3& p) { return Exact::Point_3(p.x, p.y, p.z); };
-  const Exact::Point_3 centre = CGAL::circumcenter(exact(a), exact(b), exact(c), exact(d));
-  return {CGAL::to_double(centre.x()), CGAL::to_double(centre.y()), CGAL::to_double(centre.z())};
+  const Exact::Vector_3 centre = CGAL::circumcenter(exact(a), exact(b), exact(c), exact(d)) - exact(a);
+  return {{CGAL::to_double(centre.x()), CGAL::to_double(centre.y()), CGAL::to_double(centre.z())}, 1};
 }
 
 /// Sums and products without rounding, only the last division has it. Much faster than fractions, which are reduced.
-Vec3 exact_circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+Centre exact_centre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   using Vector = std::array<Number, 3>;
   const auto from_a = [&](const Vec3& p) {
     return Vector{Number(p.x) - Number(a.x), Number(p.y) - Number(a.y), Number(p.z) - Number(a.z)};
@@ -42,25 +49,41 @@ Vec3 exact_circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3&
   const auto offset = [&](std::size_t k) {
     return CGAL::to_double(uu * vw[k] + vv * wu[k] + ww * uv[k]) / twice_volume;
   };
-  const Vec3 centre = a + Vec3{offset(0), offset(1), offset(2)};
+  const Vec3 centre{offset(0), offset(1), offset(2)};
   // Products of four lengths may be more or less than double holds.
   constexpr double least = 1e-300;
   const bool is_held = is_finite(centre) && std::fabs(twice_volume) * norm(b - a) > least;
-  return is_held ? centre : rational_circumcentre(a, b, c, d);
+  return is_held ? Centre{centre, 1} : rational_centre(a, b, c, d);
 }
 
-} // namespace
-
-Vec3 circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+Centre centre_seen_from_first(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = c - a, w = d - a;
   const Vec3 vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
   const double volume = dot(u, vw); // six times the signed volume
   const double uu = squared_norm(u), vv = squared_norm(v), ww = squared_norm(w);
   // The rounding error of `volume` is a few ulp of |u||v||w|.
   // Negated, so that underflow and NaN also take the exact way.
-  if (!(volume * volume > half_the_digits * half_the_digits * uu * vv * ww)) return exact_circumcentre(a, b, c, d);
+  const double largest = uu * vv * ww, square = volume * volume;
+  if (!(square > half_the_digits * half_the_digits * largest)) return exact_centre(a, b, c, d);
   const Vec3 numerator = uu * vw + (vv * wu + ww * uv);
-  return a + (1 / (2 * volume)) * numerator;
+  return {(1 / (2 * volume)) * numerator, largest / square};
+}
+
+} // namespace
+
+Vec3 circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return a + centre_seen_from_first(a, b, c, d).position;
+}
+
+Circumsphere circumsphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Centre centre = centre_seen_from_first(a, b, c, d);
+  const double radius = norm(centre.position);
+  // A radius without bounds, as of four points nearly in a plane, says nothing.
+  if (!(radius * radius <= std::numeric_limits<double>::max())) return {a, {}, std::numeric_limits<double>::infinity()};
+  // Edges are chords: |u||v||w| (|u| + |v| + |w|) / |2 volume| is at most three times the radius times the loss, and
+  // each of its parts has about ten roundings. The same again is for those of what is compared with the sphere.
+  constexpr double roundings = 64 * std::numeric_limits<double>::epsilon();
+  return {a, centre.position, roundings * std::sqrt(centre.squared_loss) * radius};
 }
 
 } // namespace eigencrust

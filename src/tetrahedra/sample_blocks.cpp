@@ -125,15 +125,14 @@ BlockSketch SampleBlocks::sketch_of(std::uint32_t block) const {
 double SampleBlocks::distance_to_others(const Box3& box, const SampleRange& left_out) const {
   double squared = std::numeric_limits<double>::infinity();
   std::uint64_t looked_at = 0;
-  walk(
-      box, left_out, squared, looked_at,
-      [&](std::uint32_t s) {
-        const Vec3& p = position(s);
-        squared =
-            std::min(squared, squared_norm({gap(box.min.x, box.max.x, p.x, p.x), gap(box.min.y, box.max.y, p.y, p.y),
-                                            gap(box.min.z, box.max.z, p.z, p.z)}));
-      },
-      [&](const Place& block) { squared = std::min(squared, block.squared_distance); });
+  walk([&](const Node& node) { return node.squared_distances(box); }, left_out, squared, looked_at,
+       [&](std::uint32_t s) {
+         const Vec3& p = position(s);
+         squared =
+             std::min(squared, squared_norm({gap(box.min.x, box.max.x, p.x, p.x), gap(box.min.y, box.max.y, p.y, p.y),
+                                             gap(box.min.z, box.max.z, p.z, p.z)}));
+       },
+       [&](const Place& block) { squared = std::min(squared, block.bound); });
   return std::sqrt(squared);
 }
 

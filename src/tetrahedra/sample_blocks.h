@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,6 +17,7 @@
 #include <eigencrust/types.h>
 
 #include "parallel/threads.h"
+#include "tetrahedra/circumsphere.h"
 
 namespace eigencrust {
 
@@ -30,14 +32,13 @@ struct BlockSketch {
   Vec3 scout;
   std::uint32_t scout_sample = 0; ///< the one nearest to the middle of the box
 
-  /// Of a point from the turned box.
-  [[nodiscard]] double squared_distance(const Vec3& p) const {
-    double sum = 0;
-    for (std::size_t k = 0; k < axis.size(); ++k) {
-      const double beyond = std::max(std::fabs(dot(p - middle, axis[k])) - half[k], 0.0);
-      sum += beyond * beyond;
-    }
-    return sum;
+  /// No point of the turned box has less.
+  [[nodiscard]] double least_power(const Circumsphere& sphere) const {
+    const Vec3 seen = middle - sphere.eye;
+    Vec3 nearest = seen;
+    for (std::size_t k = 0; k < axis.size(); ++k)
+      nearest = nearest + std::clamp(dot(sphere.centre - seen, axis[k]), -half[k], half[k]) * axis[k];
+    return sphere.least_of_body(sphere.power(sphere.eye + nearest));
   }
 };
 
@@ -89,24 +90,25 @@ class SampleBlocks {
   /// Of a block that is known.
   [[nodiscard]] BlockSketch sketch_of(std::uint32_t block) const;
 
-  /// The sample nearest to `centre` that is not in `left_out`, not farther than the root of `squared_reach`, and of
-  /// which accept(sample, squared distance) is true.
+  /// The sample deepest inside a sphere, of those not in `left_out` of which accept(sample, power) is true. What lies
+  /// outside for certain is not asked for.
   /// \param looked_at is added how many nodes were looked at
   /// \param absent is called with blocks that would have to be known for more than a scout
   template <class Accept, class Absent>
-  std::optional<std::uint32_t> nearest(const Vec3& centre, double squared_reach, const SampleRange& left_out,
+  std::optional<std::uint32_t> deepest(const Circumsphere& sphere, const SampleRange& left_out,
                                        std::uint64_t& looked_at, Accept&& accept, Absent&& absent) const {
     std::optional<std::uint32_t> found;
-    const Box3 place{centre, centre};
+    double most = 0;
     const auto visit = [&](std::uint32_t s) {
-      const double distance = squared_norm(position(s) - centre);
-      if (distance > squared_reach || !accept(s, distance)) return;
+      const Power power = sphere.power(position(s));
+      if (power.value - power.doubt > most || !accept(s, power)) return;
       found = s;
-      squared_reach = distance;
+      most = power.value;
     };
-    walk(place, left_out, squared_reach, looked_at, visit, [&](const Place& block) {
+    const auto bounds = [&](const Node& node) { return node.least_powers(sphere); };
+    walk(bounds, left_out, most, looked_at, visit, [&](const Place& block) {
       const BlockSketch& sketch = sketches_[block.index];
-      if (sketch.squared_distance(centre) > squared_reach) return;
+      if (sketch.least_power(sphere) > most) return;
       visit(sketch.scout_sample);
       absent(block.index);
     });
@@ -139,10 +141,27 @@ class SampleBlocks {
         sum[i] += length * length;
       }
     }
+    /// No sample of a child has less; of a child that there is not, nothing is said.
+    [[nodiscard]] Eight least_powers(const Circumsphere& sphere) const {
+      Eight power{}, doubt{};
+      add_powers(min_x, max_x, sphere.eye.x, sphere.centre.x, power, doubt);
+      add_powers(min_y, max_y, sphere.eye.y, sphere.centre.y, power, doubt);
+      add_powers(min_z, max_z, sphere.eye.z, sphere.centre.z, power, doubt);
+      for (std::size_t i = 0; i < branches; ++i)
+        power[i] = sphere.least_of_body({power[i], 2 * sphere.doubt * doubt[i]});
+      return power;
+    }
+    static void add_powers(const Eight& min, const Eight& max, double eye, double centre, Eight& power, Eight& doubt) {
+      for (std::size_t i = 0; i < branches; ++i) {
+        const double nearest = std::min(std::max(centre, min[i] - eye), max[i] - eye);
+        power[i] += nearest * (nearest - 2 * centre);
+        doubt[i] += std::fabs(nearest);
+      }
+    }
   };
   struct Place {
     std::uint32_t level, index;
-    double squared_distance;
+    double bound;
   };
   /// Groups of eight samples are the level below, blocks of blocks those above.
   static constexpr std::uint32_t block_level = 1;
@@ -162,17 +181,18 @@ class SampleBlocks {
   /// Walking down, no more than eight wait on each of the eleven levels that 2^32 samples have.
   static constexpr std::size_t most_waiting = 8 * 11;
 
-  /// visit(sample) for those in groups that are not farther from `box` than the root of `squared_reach`, which visit
-  /// may make smaller, and absent(place) for such blocks that are elsewhere.
-  template <class Visit, class Absent>
-  void walk(const Box3& box, const SampleRange& left_out, const double& squared_reach, std::uint64_t& looked_at,
-            Visit&& visit, Absent&& absent) const {
+  /// visit(sample) for those in groups of which bounds(node) are not more than `most`, which visit may make smaller,
+  /// and absent(place) for such blocks that are elsewhere.
+  template <class Bounds, class Visit, class Absent>
+  void walk(Bounds&& bounds, const SampleRange& left_out, const double& most, std::uint64_t& looked_at, Visit&& visit,
+            Absent&& absent) const {
     std::array<Place, most_waiting> waiting;
     std::size_t count = 0;
-    waiting[count++] = {static_cast<std::uint32_t>(block_level + above_.size()), 0, 0};
+    waiting[count++] = {static_cast<std::uint32_t>(block_level + above_.size()), 0,
+                        -std::numeric_limits<double>::infinity()};
     while (count > 0) {
       const Place place = waiting[--count];
-      if (place.squared_distance > squared_reach) continue;
+      if (place.bound > most) continue;
       ++looked_at;
       if (place.level == 0) {
         const SampleRange range = range_of(place.level, place.index);
@@ -184,13 +204,13 @@ class SampleBlocks {
         absent(place);
         continue;
       }
-      const auto distances = node_at(place).squared_distances(box);
+      const auto bound = bounds(node_at(place));
       std::size_t nearest = count;
       for (std::uint32_t i = 0; i < branches; ++i) {
-        const Place child{place.level - 1, place.index * branches + i, distances[i]};
-        if (child.squared_distance > squared_reach || lies_within(range_of(child.level, child.index), left_out))
-          continue;
-        if (count == nearest || distances[i] < waiting[nearest].squared_distance) nearest = count;
+        const Place child{place.level - 1, place.index * branches + i, bound[i]};
+        const SampleRange range = range_of(child.level, child.index);
+        if (child.bound > most || range.size() == 0 || lies_within(range, left_out)) continue;
+        if (count == nearest || child.bound < waiting[nearest].bound) nearest = count;
         waiting[count++] = child;
       }
       if (nearest < count) std::swap(waiting[nearest], waiting[count - 1]); // it is the next

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <eigencrust/error.h>
 
@@ -57,12 +56,6 @@ struct Missing {
   std::uint32_t near; ///< vertex of the tetrahedron
 };
 
-/// Around the circumsphere, whatever was rounded.
-struct Shell {
-  Vec3 centre;
-  double squared_inner, squared_outer; ///< what is not farther is inside for certain; what is farther is outside
-};
-
 class TileMaker {
  public:
   TileMaker(std::span<const Vec3> corners, const SampleBlocks& blocks, const SampleRange& range, TileProgress& progress,
@@ -73,12 +66,7 @@ class TileMaker {
         progress_(progress),
         supply_(supply),
         delaunay_(own_and_corners(corners)) {
-    Box3 box;
-    for (std::uint32_t i = 0; i < cube_corners; ++i) {
-      box.add(corners[i]);
-      others_.push_back(samples_ + i);
-    }
-    rounding_ = 16 * std::numeric_limits<double>::epsilon() * box.diagonal();
+    for (std::uint32_t i = 0; i < cube_corners; ++i) others_.push_back(samples_ + i);
   }
 
   std::optional<Tile> make() {
@@ -212,21 +200,22 @@ class TileMaker {
     return missing;
   }
 
-  /// Of the samples of others that are inside the circumsphere of a tetrahedron, the one nearest to its centre.
+  /// Of the samples of others that are inside the circumsphere of a tetrahedron, the one deepest inside.
   /// \param own vertex of it
   std::optional<std::uint32_t> deepest_inside(std::uint32_t t, std::uint32_t own) {
-    const Shell shell = shell_around(delaunay_.tetrahedra()[t].vertices);
-    const double free = margin(sample(own));
-    if (4 * shell.squared_outer < free * free) return {};
+    const auto& v = delaunay_.tetrahedra()[t].vertices;
+    const Circumsphere sphere = circumsphere(delaunay_.position(v[0]), delaunay_.position(v[1]),
+                                             delaunay_.position(v[2]), delaunay_.position(v[3]));
+    if (2 * (norm(sphere.centre) + 3 * sphere.doubt) < margin(sample(own))) return {};
 
-    const auto is_inside = [&](std::uint32_t s, double squared_distance) {
-      if (squared_distance < shell.squared_inner) return true;
+    const auto is_inside = [&](std::uint32_t s, const Power& power) {
+      if (power.value + power.doubt < 0) return true;
       if (known_[s]) return false; // no sphere here has one of these inside
       looks_ += looks_as_long_as_a_test;
       return delaunay_.is_inside_sphere(t, blocks_.position(s));
     };
     std::optional<std::uint32_t> absent;
-    const auto found = blocks_.nearest(shell.centre, shell.squared_outer, range_, looks_, is_inside,
+    const auto found = blocks_.deepest(sphere, range_, looks_, is_inside,
                                        [&](std::uint32_t block) { absent = absent.value_or(block); });
     if (!found && absent) wait_for(*absent, t, own);
     return found;
@@ -238,20 +227,6 @@ class TileMaker {
     Waiting& w = waiting_.emplace_back(delaunay_.tetrahedra()[t].vertices);
     // It is looked for around the first; around corners of the cube there are too many.
     std::iter_swap(w.begin(), std::find(w.begin(), w.end(), own));
-  }
-
-  /// The circumcentre is off by at most a small multiple of half_the_digits, of the radius (see circumcentre), and of
-  /// the rounding of coordinates.
-  [[nodiscard]] Shell shell_around(const std::array<std::uint32_t, 4>& v) const {
-    constexpr double doubt = 64 * std::numeric_limits<float>::epsilon(); // more than that multiple
-    const Vec3& first = delaunay_.position(v[0]);
-    const Vec3 centre =
-        circumcentre(first, delaunay_.position(v[1]), delaunay_.position(v[2]), delaunay_.position(v[3]));
-    const double r = distance(centre, first);
-    const double inner = (1 - doubt) * r - rounding_, outer = (1 + doubt) * r + rounding_;
-    // A radius without bounds, as of four samples nearly in a plane, says nothing.
-    if (!(outer * outer <= std::numeric_limits<double>::max())) return {{}, 0, std::numeric_limits<double>::infinity()};
-    return {centre, inner > 0 ? inner * inner : 0, outer * outer};
   }
 
   /// The tile's tetrahedra by their smallest sample.
@@ -337,7 +312,6 @@ class TileMaker {
   TileProgress& progress_;
   SampleSupply* supply_;
   IncrementalDelaunay delaunay_;
-  double rounding_ = 0;               ///< of distances between coordinates; length
   std::vector<std::uint32_t> others_; ///< samples of the vertices that are not the tile's
   std::vector<double> margins_;
   std::vector<bool> known_;           ///< samples of others that were inserted

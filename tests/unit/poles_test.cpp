@@ -143,5 +143,27 @@ TEST(Circumcentre, OfASliverIsExact) {
   }
 }
 
+TEST(Circumsphere, KnowsHowFarItMayBeOff) {
+  // Round ones, slivers, and such that are a plane near three of the points.
+  clouds::Random random(3);
+  double largest = 0;
+  for (int k = 0; k < 4000; ++k) {
+    std::array<Vec3, 4> p;
+    for (Vec3& q : p) q = random.in_box(1);
+    if (k % 4 == 1)
+      p[3] = p[0] + 0.3 * (p[1] - p[0]) + 0.4 * (p[2] - p[0]) + std::pow(10.0, -k / 400.0) * random.in_box(1);
+    if (k % 4 == 2) p[3] = 1e9 * p[3];
+    if (k % 4 == 3) p[0] = 1e7 * p[0];
+    const Circumsphere sphere = circumsphere(p[0], p[1], p[2], p[3]);
+    for (const Vec3& q : p) EXPECT_LE(std::fabs(sphere.power(q).value), sphere.power(q).doubt) << k;
+    if (k % 4 != 2) continue;
+    // The fourth point is far away: one beside the face is inside or outside by far more than what is not known.
+    const Vec3 beside = (1 / 3.0) * (p[0] + p[1] + p[2]) + 1e-12 * p[3];
+    const Power power = sphere.power(beside);
+    largest = std::max(largest, power.doubt / std::fabs(power.value));
+  }
+  EXPECT_LT(largest, 1e-3);
+}
+
 } // namespace
 } // namespace eigencrust

@@ -197,6 +197,14 @@ TEST(Tiles, AreGivenUpWhereAllSamplesLieOnOneSphere) {
   EXPECT_TRUE(make_tile(corners_of(t), blocks, {0, 20000}, progress));
 }
 
+TEST(Tiles, AreOfUseWhereOneSampleIsFarAway) {
+  // Spheres through it and three samples of the surface are nearly planes, with all of the surface on one side.
+  Points points = clouds::jittered(clouds::sphere(20000), 0.01, 1);
+  points.push_back({1e9, -3e8, 2e9});
+  const Tetrahedralization t = whole(points);
+  expect_same_in_parts(t, 2);
+}
+
 TEST(Tiles, TellHowFarTheyHaveCome) {
   const Tetrahedralization t = whole(clouds::random_box(3000, 6));
   const SampleBlocks blocks(samples_of(t), Threads(1));
@@ -231,7 +239,7 @@ TEST(Tiles, AreTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(SampleBlocks, FindTheNearestOutsideARange) {
+TEST(SampleBlocks, FindTheDeepestOutsideARange) {
   for (const std::size_t count : {1u, 9u, 500u, 5000u}) {
     const Threads threads(1);
     const auto samples =
@@ -240,21 +248,22 @@ TEST(SampleBlocks, FindTheNearestOutsideARange) {
     const auto n = static_cast<std::uint32_t>(positions.size());
     const SampleBlocks blocks(positions, threads);
     clouds::Random random(9);
-    for (int k = 0; k < 200; ++k) {
-      const Vec3 centre = random.in_box(1.5);
-      const SampleRange left_out{n * static_cast<std::uint32_t>(k) / 400, n - n * static_cast<std::uint32_t>(k) / 500};
-      const double reach = k % 3 == 0 ? 0.3 : 100;
+    for (int k = 0; k < 300; ++k) {
+      // Small ones, ones that hold all, and ones so large that they are planes.
+      const Vec3 centre = (k % 3 == 0 ? 0.2 : k % 3 == 1 ? 4 : 1e12) * random.in_box(1);
+      const Circumsphere sphere{random.in_box(1.5), centre, 0};
+      const SampleRange left_out{n * static_cast<std::uint32_t>(k) / 600, n - n * static_cast<std::uint32_t>(k) / 700};
       std::optional<std::uint32_t> expected;
       for (std::uint32_t s = 0; s < n; ++s) {
-        const double distance = squared_norm(positions[s] - centre);
-        if (!left_out.holds(s) && s % 2 == 0 && distance <= reach &&
-            (!expected || distance < squared_norm(positions[*expected] - centre)))
+        const double power = sphere.power(positions[s]).value;
+        if (!left_out.holds(s) && s % 2 == 0 && power <= 0 &&
+            (!expected || power < sphere.power(positions[*expected]).value))
           expected = s;
       }
       std::uint64_t looks = 0;
-      const auto even = [](std::uint32_t s, double) { return s % 2 == 0; };
+      const auto even = [](std::uint32_t s, const Power&) { return s % 2 == 0; };
       const auto never = [](std::uint32_t) { ADD_FAILURE() << "all blocks are known"; };
-      EXPECT_EQ(blocks.nearest(centre, reach, left_out, looks, even, never), expected);
+      EXPECT_EQ(blocks.deepest(sphere, left_out, looks, even, never), expected);
     }
   }
 }
