@@ -11,6 +11,8 @@
 
 #include "geometry/mesh_topology.h"
 #include "geometry/self_intersections.h"
+#include "surface/clear_stars.h"
+#include "surface/fans.h"
 #include "surface/trim.h"
 
 namespace eigencrust {
@@ -326,15 +328,25 @@ EdgeFlipCounts flip_edges(std::vector<float> longest, std::span<const Vec3> view
   const std::vector<std::uint8_t> degenerate = find_degenerate_triangles(mesh.vertices, mesh.triangles, threads);
   std::vector<std::uint8_t> closed = degenerate;
   for (std::size_t t = 0; t < surface.unsupported.size(); ++t) closed[t] |= surface.unsupported[t];
+  std::vector<std::uint8_t> clear;
   std::optional<CrossingSearch> search;
+  const auto first_search = [&](const std::vector<std::uint32_t>& changed) {
+    clear = clear_stars(mesh.vertices, SurfaceFans(mesh), threads);
+    search.emplace(mesh.vertices, mesh.triangles, degenerate, threads);
+    search->set_clear(clear);
+    auto pairs = search->all(threads);
+    std::erase_if(pairs, [&](const CrossingSearch::Pair& pair) {
+      return std::ranges::none_of(pair, [&](std::uint32_t t) { return std::ranges::binary_search(changed, t); });
+    });
+    return pairs;
+  };
   for (int attempt = 0;; ++attempt) {
     // What is as it was in the last try was tested then.
     auto flipped = EdgeFlips(mesh.vertices, before, support, longest, view, closed, threads).run();
     const std::vector<std::uint32_t> changed = replace(mesh.triangles, flipped.first);
     surface.support = std::move(flipped.second);
     if (changed.empty()) break;
-    if (!search) search.emplace(mesh.vertices, mesh.triangles, degenerate, threads);
-    const auto pairs = search->of_changed(changed, threads);
+    const auto pairs = search ? search->of_changed(changed, threads) : first_search(changed);
     if (pairs.empty()) break;
     counts.crossings += pairs.size();
     for (const auto& pair : pairs)
