@@ -243,7 +243,7 @@ class SurfaceFit {
         position_(smoothed(surface.mesh.vertices, fans, shares_of_steps(), threads)),
         trust_(position_.size(), 0),
         sigma_(position_.size(), 0) {
-    const std::vector<Vec3> smooth = position_;
+    start_ = position_;
     for (std::size_t v = 0; v < position_.size(); ++v)
       if (noise_[v] < 0) position_[v] = own_sample(v); // it stays, but says which side its sample is on
     std::optional<NearestVertex> nearest;
@@ -251,7 +251,7 @@ class SurfaceFit {
       if (k == 0)
         nearest.emplace(position_, fans);
       else
-        normal_ = averaged_normals(smooth, fans, threads);
+        normal_ = averaged_normals(start_, fans, threads);
     });
     vertex_of_ = vertices_of_samples(*nearest);
   }
@@ -272,7 +272,7 @@ class SurfaceFit {
     for (std::size_t v = 0; v < result.size(); ++v) {
       result[v] = own_sample(v);
       if (noise_[v] >= 0)
-        result[v] = limited(result[v], result[v] + trust_[v] * (position_[v] - result[v]), farthest(v));
+        result[v] = limited(result[v], result[v] + trust_[v] * (position_[v] - slid(v) - result[v]), farthest(v));
     }
     return result;
   }
@@ -295,6 +295,14 @@ class SurfaceFit {
   /// whichever is less: where samples are rare none of them is noise.
   [[nodiscard]] double farthest(std::size_t v) const {
     return static_cast<double>(noise_bound) * sigma_[v] + trust_[v] * std::min(spacing_at(v), model_.typical_spacing);
+  }
+
+  /// How far the start slid beside the surface, beyond what the noise that the fits find explains: none of it is for
+  /// the better.
+  [[nodiscard]] Vec3 slid(std::size_t v) const {
+    const Vec3 way = start_[v] - own_sample(v), beside = way - dot(way, normal_[v]) * normal_[v];
+    const double length = norm(beside), most = static_cast<double>(noise_bound) * sigma_[v];
+    return length > most ? (1 - most / length) * beside : Vec3{};
   }
 
   /// Samples are on the side of the vertex next to them; those farther off than noise explains are on none.
@@ -443,6 +451,7 @@ class SurfaceFit {
   const Threads& threads_;
   const SurfaceFans& fans_;
   std::vector<Vec3> position_, normal_;  ///< of each vertex
+  std::vector<Vec3> start_;              ///< of each vertex
   std::vector<std::uint32_t> vertex_of_; ///< of each sample
   std::vector<double> trust_; ///< in the fit, the rest is the sample's; 1: its error is nothing beside the noise
   std::vector<double> sigma_; ///< of the noise that the fits find
