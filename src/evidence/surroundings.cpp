@@ -12,7 +12,9 @@
 #include <eigencrust/error.h>
 
 #include "evidence/hull.h"
+#include "parallel/compressed_rows.h"
 #include "samples/scales.h"
+#include "samples/two_sheets.h"
 #include "tetrahedra/segment_walk.h"
 
 namespace eigencrust {
@@ -34,6 +36,10 @@ constexpr double cap_of_body = 2;
 constexpr double most_on_hull = 0.5;
 // Walls lean by less than 15° (the sine), and are more of the hull than upright slivers at the rim of flat ground.
 constexpr double most_leaning = 0.26, least_walls = 0.05;
+// Two sheets are looked for among the samples within so many spacings across the axis, if they are so many, and are not
+// a step: that has its halves side by side, by half of the way and more.
+constexpr double sheet_radius = 3, most_aside = 0.35;
+constexpr std::size_t least_in_sheets = 30;
 // What stands on z is taken to be ground first: of two sides of a façade nothing tells the one that was seen.
 constexpr int z = 2;
 
@@ -128,6 +134,61 @@ StackedShare share_stacked(const Scene& scene, int axis, const Threads& threads)
     area += side * side;
   }
   return {samples / static_cast<double>(some.size()), area / all_area};
+}
+
+/// Of points[index[0]] and so on, with the axis for the normal.
+LocalFrame standing_frame(std::span<const Vec3> points, std::span<const std::uint32_t> index, int axis) {
+  LocalFrame frame;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int turned = (axis + static_cast<int>(k)) % 3;
+    frame.axis[k] = direction_of(static_cast<Axis>(2 * turned));
+  }
+  for (const std::uint32_t i : index) frame.mean = frame.mean + points[i];
+  frame.mean = (1 / static_cast<double>(index.size())) * frame.mean;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const std::uint32_t i : index) {
+      const double d = dot(points[i] - frame.mean, frame.axis[k]);
+      frame.variance[k] += d * d / static_cast<double>(index.size());
+    }
+  }
+  return frame;
+}
+
+/// The share of the area around which there are two sheets along the axis, where noise hides which sample has another
+/// one above it: the sides of a thin plate.
+double share_of_two_sheets(const Scene& scene, int axis, const Threads& threads) {
+  const Tetrahedralization& t = scene.tetrahedralization;
+  const SampleModel& model = scene.measures.model;
+  const std::span<const Vec3> positions(t.positions.raw().data(), t.sample_count);
+  const double widest = sheet_radius * model.typical_spacing;
+  const std::vector<SampleIndex> some = some_samples(t);
+  const Columns columns(t, axis, some, widest);
+  const auto radius = [&](std::uint32_t k) {
+    return std::min(sheet_radius * static_cast<double>(model.spacing[some[k]]), widest);
+  };
+  const auto around = build_rows<std::uint32_t>(some.size(), [&](auto&& visit) {
+    for (std::uint32_t i = 0; i < t.sample_count; ++i)
+      columns.for_each_near(positions[i], [&](std::uint32_t k) {
+        if (across(axis, positions[i], t.positions[some[k]]) <= radius(k)) visit(k, i);
+      });
+  });
+  std::vector<std::uint8_t> two(some.size(), 0);
+  const auto look = [&](std::size_t k) {
+    if (around[k].size() < least_in_sheets) return;
+    const LocalFrame frame = standing_frame(positions, around[k], axis);
+    const auto sheets = two_sheets(positions, around[k], frame);
+    // What lies higher beside is a step.
+    two[k] = sheets && sheets->gap > static_cast<double>(model.spacing[some[k]]) &&
+             sheets->aside < most_aside * radius(static_cast<std::uint32_t>(k));
+  };
+  for_each_index(threads, some.size(), look, costly_block);
+  double in_two = 0, all = 0;
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    const double side = std::min(static_cast<double>(model.spacing[some[k]]), model.typical_spacing);
+    all += side * side;
+    in_two += two[k] * side * side;
+  }
+  return in_two / all;
 }
 
 /// How far the hull is from a sample in a direction.
@@ -255,6 +316,8 @@ Surroundings side_for_base(const Scene& scene, const Threads& threads) {
 AxisReading read_axis(const Scene& scene, int axis, const Threads& threads) {
   AxisReading reading;
   reading.stacked = share_stacked(scene, axis, threads).of_area;
+  if (reading.stacked <= perhaps_stacked)
+    reading.stacked = std::max(reading.stacked, share_of_two_sheets(scene, axis, threads));
   if (reading.stacked <= most_stacked) reading.cap = cap_of(scene, axis, threads);
   return reading;
 }

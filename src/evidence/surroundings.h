@@ -29,7 +29,8 @@ HullSight hull_sight(const Tetrahedralization& tetrahedralization, const VertexS
 struct AxisReading {
   /// Share of the area, as many squared spacings as there are samples, whose samples have another one above or below
   /// them: within a spacing across the axis, and along it farther than twice as far and than spacing and noise explain.
-  /// A face that lies in the plane of a scanner's lines has many times the samples of all others.
+  /// A face that lies in the plane of a scanner's lines has many times the samples of all others. Or the share around
+  /// which the samples lie in two sheets, one above the other, if that is more.
   double stacked = 1;
   /// Space between the samples and their hull behind them, over that in front, seen from the positive end. Large where
   /// the samples are the cap of a body, infinite where they are a plane, small where the ground has something on it.

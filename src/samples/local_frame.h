@@ -14,7 +14,7 @@ namespace eigencrust {
 struct LocalFrame {
   Vec3 mean;
   std::array<Vec3, 3> axis;       ///< unit, orthogonal; by increasing variance: axis[0] is the normal of a flat place
-  std::array<double, 3> variance; ///< along the axes, increasing, >= 0
+  std::array<double, 3> variance{}; ///< along the axes, increasing, >= 0
 
   /// Is the neighbourhood wider than it is thick?
   [[nodiscard]] bool is_flat() const { return variance[0] < flat_ratio * flat_ratio * variance[1]; }

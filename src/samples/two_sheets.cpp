@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -20,11 +21,11 @@ using Fit = Eigen::Matrix<double, terms, 1>;
 /// Heights over the best quadric that both sheets share.
 class SheetFit {
  public:
-  SheetFit(std::span<const Vec3> points, std::span<const std::uint32_t> index, const LocalFrame& frame) {
-    const double scale = std::sqrt(frame.variance[2]);
+  SheetFit(std::span<const Vec3> points, std::span<const std::uint32_t> index, const LocalFrame& frame)
+      : scale_(std::sqrt(frame.variance[2])) {
     for (const std::uint32_t i : index) {
       const Vec3 d = points[i] - frame.mean;
-      const double x = dot(d, frame.axis[1]) / scale, y = dot(d, frame.axis[2]) / scale;
+      const double x = dot(d, frame.axis[1]) / scale_, y = dot(d, frame.axis[2]) / scale_;
       terms_.push_back(Fit{{1, x, y, x * x, x * y, y * y, 0}});
       height_.push_back(dot(d, frame.axis[0]));
     }
@@ -56,9 +57,21 @@ class SheetFit {
     }
     return std::sqrt(squares / static_cast<double>(terms_.size()));
   }
+  /// Of the means of both sheets, along them.
+  [[nodiscard]] double aside() const {
+    std::array<double, 2> x{}, y{}, count{};
+    for (const Fit& term : terms_) {
+      const auto sheet = static_cast<std::size_t>(term[is_upper]);
+      x[sheet] += term[in_x];
+      y[sheet] += term[in_y];
+      count[sheet] += 1;
+    }
+    return scale_ * std::hypot(x[1] / count[1] - x[0] / count[0], y[1] / count[1] - y[0] / count[0]);
+  }
   [[nodiscard]] std::size_t size() const { return terms_.size(); }
 
  private:
+  double scale_; ///< length of a unit
   std::vector<Fit> terms_;
   std::vector<double> height_;
   Fit fit_ = Fit::Zero();
@@ -106,7 +119,7 @@ std::optional<TwoSheets> two_sheets(std::span<const Vec3> points, std::span<cons
   if (static_cast<double>(std::min(upper, sheets.size() - upper)) < least) return std::nullopt;
   const double within = sheets.deviation();
   if (!(gap > least_gap_in_deviations * within)) return std::nullopt;
-  return TwoSheets{gap, within};
+  return TwoSheets{gap, within, sheets.aside()};
 }
 
 } // namespace eigencrust

@@ -13,6 +13,7 @@ namespace eigencrust {
 struct TwoSheets {
   double gap;       ///< between their means
   double deviation; ///< standard deviation within each
+  double aside;     ///< how far their means are apart along the sheets; much of the width where it is a step
 };
 
 /// Two parallel sheets, if the points lie in two: their offsets from a common quadric fall into halves (least squares)

@@ -97,6 +97,19 @@ TEST(AxisReading, TellsGroundFromBodies) {
   EXPECT_GT(stacked(plate, z), 0.75); // as far from ground as other bodies
 }
 
+TEST(AxisReading, TellsThinNoisyPlatesFromGround) {
+  // Noise hides which sample has another one above it, but not that they lie in two sheets.
+  const auto noisy = [](double height) {
+    Points points = heights(60, [&](double, double) { return height; });
+    return clouds::jittered(points, 0.3, static_cast<std::uint64_t>(2 + height));
+  };
+  const auto stacked = [](const Points& points) { return read_axis(scene_of(points), 2, Threads(2)).stacked; };
+  EXPECT_GT(stacked(clouds::joined(noisy(0), noisy(2.5))), 0.75);
+  EXPECT_LT(stacked(noisy(0)), 0.05);
+  // Terraces are steps, each with one sheet.
+  EXPECT_LT(stacked(heights(60, [](double x, double) { return 2.5 * std::floor(x / 10); })), 0.25);
+}
+
 TEST(AxisReading, CountsAreaWhereSamplesLieUnevenly) {
   // A block whose bottom lies in the plane of a scan line, which sampled all of it; its walls have 5 lines.
   clouds::Random random(4);
