@@ -3,6 +3,9 @@
 // docs/decisions/0027).
 #include <algorithm>
 #include <array>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "geometry/tetrahedron.h"
 #include "repair/generators.h"
@@ -15,6 +18,9 @@ namespace {
 // are together, its third nearest. In spacings.
 constexpr double farthest_nearest = 1.5, farthest_third = 2;
 
+// What a piece or a handle more or less is worth: these moves leave them as they are.
+constexpr double forbidden = 1e6;
+
 /// Square of its longest edge.
 double squared_length(const Tetrahedralization& t, TetrahedronIndex i) {
   const std::array<Vec3, 4> p = corners_of(t, i);
@@ -24,35 +30,64 @@ double squared_length(const Tetrahedralization& t, TetrahedronIndex i) {
   return longest;
 }
 
-/// The tetrahedron of the star with a surface triangle opposite s that costs least; invalid if none makes it better.
-/// Turning it puts s on the surface and neither opens nor joins anything.
-TetrahedronIndex best_tetrahedron(const Moves& moves, SampleIndex s) {
+/// May the surface reach over the tetrahedron to its sample s, which it passes by? \param around those nearest to s
+bool may_reach(const Moves& moves, TetrahedronIndex i, SampleIndex s, std::span<const NearSample> around) {
   const MoveScene& scene = moves.scene;
-  const auto around = nearest_samples(scene, s);
-  double least = 0;
-  TetrahedronIndex best;
-  for (const TetrahedronIndex i : scene.stars[s]) {
-    if (!moves.is_open(i)) continue;
-    const auto& v = scene.t.tetrahedra[i];
-    std::size_t k = 0;
-    while (v[k] != s) ++k;
-    const TetrahedronIndex across = scene.t.neighbours[i][k];
-    if (!across.valid() || moves.labels()[across] == moves.labels()[i]) continue;
-    double spacing = 0; // of the triangle's samples
-    for (const std::size_t j : face_opposite[k])
-      if (!scene.t.is_corner(v[j]))
-        spacing += static_cast<double>(scene.model.spacing[scene.t.sample(v[j])]) /
-                   static_cast<double>(face_opposite[k].size());
-    if (around.front().distance > farthest_nearest * spacing || around.back().distance > farthest_third * spacing)
-      continue;
-    // What is longer than samples bear out leads to another part: tips beside each other were strung together.
-    if (squared_length(scene.t, i) > longest_edge * longest_edge * spacing * spacing) continue;
-    const double cost = moves.labels().cost_of(i);
-    if (cost >= least) continue;
-    least = cost;
-    best = i;
+  if (!moves.is_open(i)) return false;
+  double spacing = 0; // of the three others
+  for (const VertexIndex v : scene.t.tetrahedra[i])
+    if (v != s && !scene.t.is_corner(v)) spacing += static_cast<double>(scene.model.spacing[scene.t.sample(v)]) / 3;
+  if (around.front().distance > farthest_nearest * spacing || around.back().distance > farthest_third * spacing)
+    return false;
+  // What is longer than samples bear out leads to another part: tips beside each other were strung together.
+  return squared_length(scene.t, i) <= longest_edge * longest_edge * spacing * spacing;
+}
+
+/// Has it a triangle of the surface opposite s? Turning it then puts s on the surface and neither opens nor joins
+/// anything.
+bool is_on_surface_triangle(const Moves& moves, TetrahedronIndex i, SampleIndex s) {
+  const auto& v = moves.scene.t.tetrahedra[i];
+  std::size_t k = 0;
+  while (v[k] != s) ++k;
+  const TetrahedronIndex across = moves.scene.t.neighbours[i][k];
+  return across.valid() && moves.labels()[across] != moves.labels()[i];
+}
+
+/// Those of the star that make the surface better, the best first.
+std::vector<TetrahedronIndex> better_tetrahedra(const Moves& moves, SampleIndex s) {
+  const auto around = nearest_samples(moves.scene, s);
+  std::vector<std::pair<double, TetrahedronIndex>> better;
+  for (const TetrahedronIndex i : moves.scene.stars[s]) {
+    if (!may_reach(moves, i, s, around)) continue;
+    if (const double cost = moves.labels().cost_of(i); cost < 0) better.emplace_back(cost, i);
   }
-  return best;
+  std::sort(better.begin(), better.end());
+  std::vector<TetrahedronIndex> result;
+  for (const auto& [cost, i] : better) result.push_back(i);
+  return result;
+}
+
+/// Takes s in by one tetrahedron that lies on the surface.
+bool take_in_by_one(Moves& moves, SampleIndex s) {
+  for (const TetrahedronIndex i : better_tetrahedra(moves, s))
+    if (is_on_surface_triangle(moves, i, s)) {
+      moves.turn(i);
+      return true;
+    }
+  return false;
+}
+
+/// Takes s in by one that touches the surface with less than a triangle, and what the surface needs then.
+bool take_in_by_several(Moves& moves, SampleIndex s) {
+  for (const TetrahedronIndex i : better_tetrahedra(moves, s)) {
+    const TetrahedronIndex one[] = {i};
+    const Moves::Outcome outcome = moves.weigh(one, forbidden);
+    // More or fewer pieces or handles would count far more than all else.
+    if (!(outcome.change < 0 && outcome.change > -forbidden / 2)) continue;
+    moves.make(outcome);
+    if (moves.labels().on_surface(s)) return true;
+  }
+  return false;
 }
 
 } // namespace
@@ -67,12 +102,12 @@ RecoveryCounts recover_samples(Moves& moves) {
     before = passed.size();
     std::erase_if(passed, [&](SampleIndex s) {
       if (moves.labels().on_surface(s)) return true;
-      const TetrahedronIndex best = best_tetrahedron(moves, s);
-      if (best.valid()) moves.turn(best);
-      return best.valid();
+      return take_in_by_one(moves, s);
     });
     counts.samples += before - passed.size();
   }
+  for (const SampleIndex s : passed)
+    if (!moves.labels().on_surface(s)) counts.samples += take_in_by_several(moves, s);
   return counts;
 }
 
