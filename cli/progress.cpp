@@ -25,7 +25,7 @@ struct StageShare {
   std::string_view name;
   double share;
 };
-constexpr std::array<StageShare, 31> shares{{{"reading", 3},
+constexpr std::array<StageShare, 32> shares{{{"reading", 3},
                                              {"samples", 4},
                                              {"sample_model", 8},
                                              {"delaunay", 24},
@@ -43,6 +43,7 @@ constexpr std::array<StageShare, 31> shares{{{"reading", 3},
                                              {"minimum_cut", 8},
                                              {"overlaps", 2},
                                              {"manifold", 4},
+                                             {"sheets", 1},
                                              {"handles", 4},
                                              {"recover", 1},
                                              {"surface", 1},

@@ -119,7 +119,7 @@ Moves::Outcome Moves::weigh(std::span<const TetrahedronIndex> region, double han
   for (const TetrahedronIndex i : region) priced_.turn(i);
   const bool possible = repair_.run(samples_of(region), region, 2 * region.size() + few_tetrahedra);
   if (possible) swallow_specks(priced_.turned_since(then));
-  Outcome outcome{0, priced_.turned_since(then)};
+  Outcome outcome{0, priced_.turned_since(then), 0, 0};
   const auto& turned = outcome.turned;
   if (!possible || !std::all_of(turned.begin(), turned.end(), [&](TetrahedronIndex i) { return is_open(i); })) {
     priced_.back_to(then);
@@ -134,11 +134,12 @@ Moves::Outcome Moves::weigh(std::span<const TetrahedronIndex> region, double han
   const std::vector<std::uint32_t> around = samples_of(outcome.turned);
   const std::int64_t pieces_before = pieces_at(around);
   make(outcome);
-  const std::int64_t pieces = pieces_at(around) - pieces_before, handles = pieces - euler / 2;
+  outcome.pieces = pieces_at(around) - pieces_before;
+  outcome.handles = outcome.pieces - euler / 2;
   priced_.back_to(then);
-  if (handles > 0) return {};
+  if (outcome.handles > 0) return {};
   // A piece more costs as much as a handle.
-  outcome.change += handle * static_cast<double>(pieces + handles);
+  outcome.change += handle * static_cast<double>(outcome.pieces + outcome.handles);
   return outcome;
 }
 

@@ -49,6 +49,7 @@ class Moves {
   struct Outcome {
     double change = 0; ///< of J; >= 0: not to be made
     std::vector<TetrahedronIndex> turned;
+    std::int64_t pieces = 0, handles = 0; ///< more of them
   };
   /// Turns these, mends the stars around, turns back what need not be, and then takes it all back.
   /// \param handle g: what one handle less is worth here

@@ -18,9 +18,6 @@ namespace {
 // are together, its third nearest. In spacings.
 constexpr double farthest_nearest = 1.5, farthest_third = 2;
 
-// What a piece or a handle more or less is worth: these moves leave them as they are.
-constexpr double forbidden = 1e6;
-
 /// Square of its longest edge.
 double squared_length(const Tetrahedralization& t, TetrahedronIndex i) {
   const std::array<Vec3, 4> p = corners_of(t, i);
@@ -81,9 +78,8 @@ bool take_in_by_one(Moves& moves, SampleIndex s) {
 bool take_in_by_several(Moves& moves, SampleIndex s) {
   for (const TetrahedronIndex i : better_tetrahedra(moves, s)) {
     const TetrahedronIndex one[] = {i};
-    const Moves::Outcome outcome = moves.weigh(one, forbidden);
-    // More or fewer pieces or handles would count far more than all else.
-    if (!(outcome.change < 0 && outcome.change > -forbidden / 2)) continue;
+    const Moves::Outcome outcome = moves.weigh(one, 0);
+    if (!(outcome.change < 0) || outcome.pieces != 0 || outcome.handles != 0) continue;
     moves.make(outcome);
     if (moves.labels().on_surface(s)) return true;
   }

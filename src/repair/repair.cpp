@@ -2,6 +2,7 @@
 #include "repair/repair.h"
 
 #include "repair/generators.h"
+#include "repair/passed_sheets.h"
 
 namespace eigencrust {
 
@@ -15,6 +16,7 @@ TetrahedronLabels repair(const Scene& scene, const Evidence& evidence, Settled s
   if (options.manifold && options.manifold_rule == ManifoldRule::cheapest) {
     Moves moves({t, stars, settled.energy, measures.model, threads}, labels);
     run.stage("manifold", [&] { return moves.make_manifold(run.checkpoint()); });
+    run.stage("sheets", [&] { return passed_sheets(moves); });
     run.stage("handles", [&] { return close_handles(moves, run.checkpoint()); });
     run.stage("recover", [&] { return recover_samples(moves); });
     moves.settle_values();

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include "evidence/evidence.h"
 #include "fit/edge_flips.h"
@@ -10,6 +12,7 @@
 #include "numerics/quantile.h"
 #include "points/point_results.h"
 #include "repair/generators.h"
+#include "repair/passed_sheets.h"
 #include "report/run.h"
 #include "samples/measures.h"
 #include "settle/minimum_energy.h"
@@ -27,6 +30,16 @@ void describe_noise(const SampleLengths& grid, Run& run) {
   for (const auto& [name, share] :
        {std::pair{"grid_spacing_q10", 0.1}, std::pair{"grid_spacing_median", 0.5}, std::pair{"grid_spacing_q90", 0.9}})
     run.count("sample_model", name, static_cast<double>(quantile(grid_spacing, share)));
+}
+
+/// With as many digits as it takes to find it.
+std::string place_in(const Box3& bounds, const Vec3& p) {
+  constexpr double parts = 1000;
+  const double part = bounds.diagonal() / parts;
+  const int digits = part > 0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(part))), 0, 12) : 0;
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(digits) << p.x << "," << p.y << "," << p.z;
+  return text.str();
 }
 
 /// Where half of the samples are farther off the surface than from one another; in merged range scans they are half as
@@ -179,6 +192,17 @@ void describe(const ManifoldCounts& counts, Run& run) {
         std::to_string(counts.overruled) +
         " tetrahedra named inside or outside were overruled by the manifold repair; check the points named, or leave "
         "the labels as they are with --no-manifold");
+}
+
+void describe(const PassedSheets& sheets, Run& run) {
+  run.count("sheets", static_cast<double>(sheets.sheets));
+  run.count("samples", static_cast<double>(sheets.samples));
+  if (sheets.sheets > 0)
+    run.warn("the surface at first went past " + std::to_string(sheets.samples) +
+             " samples that lie side by side, as those of a wall do whose other side was not scanned there, most of "
+             "them around " +
+             place_in(run.report().bounds, sheets.at) +
+             ": it may have a hole or a notch there; look at it before you use it");
 }
 
 void describe(const HandleCounts& counts, Run& run) { run.count("closed", static_cast<double>(counts.closed)); }
