@@ -13,7 +13,7 @@ namespace eigencrust {
 /// Mean and principal axes of some points.
 struct LocalFrame {
   Vec3 mean;
-  std::array<Vec3, 3> axis;       ///< unit, orthogonal; by increasing variance: axis[0] is the normal of a flat place
+  std::array<Vec3, 3> axis;         ///< unit, orthogonal; by increasing variance: axis[0] is the normal of a flat place
   std::array<double, 3> variance{}; ///< along the axes, increasing, >= 0
 
   /// Is the neighbourhood wider than it is thick?

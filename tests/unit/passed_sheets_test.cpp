@@ -49,7 +49,9 @@ TEST(PassedSheets, OfAWallSeenFromOneSideAreTold) {
   const Report one_sided = reconstruct(clouds::cloud_of(plate(15, 1)), {}).report;
   EXPECT_GE(sheets_of(one_sided), 1);
   // The middle of the plate.
-  EXPECT_THAT(one_sided.warnings, testing::Contains(testing::ContainsRegex("around (2[5-9]|3[0-9]|4[0-5])[.][0-9]*,(2[5-9]|3[0-9]|4[0-5])[.]")));
+  EXPECT_THAT(
+      one_sided.warnings,
+      testing::Contains(testing::ContainsRegex("around (2[5-9]|3[0-9]|4[0-5])[.][0-9]*,(2[5-9]|3[0-9]|4[0-5])[.]")));
 }
 
 } // namespace
