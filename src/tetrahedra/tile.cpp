@@ -203,7 +203,9 @@ class TileMaker {
   /// Of the samples of others that are inside the circumsphere of a tetrahedron, the one deepest inside.
   /// \param own vertex of it
   std::optional<std::uint32_t> deepest_inside(std::uint32_t t, std::uint32_t own) {
-    const auto& v = delaunay_.tetrahedra()[t].vertices;
+    auto v = delaunay_.tetrahedra()[t].vertices;
+    // A corner of the cube may be far away, and from there all is in one place.
+    std::iter_swap(v.begin(), std::find(v.begin(), v.end(), own));
     const Circumsphere sphere = circumsphere(delaunay_.position(v[0]), delaunay_.position(v[1]),
                                              delaunay_.position(v[2]), delaunay_.position(v[3]));
     if (2 * (norm(sphere.centre) + 3 * sphere.doubt) < margin(sample(own))) return {};
