@@ -57,6 +57,12 @@ struct BridgedReport {
   Vec3 at;                  ///< its middle
 };
 
+/// Sheets of samples that the labels left out at first.
+struct PassedSheetsReport {
+  std::uint64_t sheets = 0, samples = 0; ///< how many, and of how many samples
+  Vec3 at;                               ///< middle of the largest, in the unit of the input
+};
+
 /// Distances from points of one surface to another.
 struct DistanceReport {
   double mean = 0, max = 0; ///< in the unit of the input
@@ -110,6 +116,7 @@ struct Report {
   std::optional<Base> base;                         ///< where Options::base was asked for
   double unsupported_area = 0;                ///< share of the surface's area that no samples bear out, before trimming
   BridgedReport bridged;                      ///< before trimming
+  PassedSheetsReport passed_sheets;           ///< where walls may be torn
   std::optional<MovedReport> moved;           ///< none: every vertex is an input point
   std::optional<SimplifiedReport> simplified; ///< none: triangles are those of the surface
   double seconds = 0;                         ///< of the whole run

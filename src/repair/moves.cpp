@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "repair/surface_fronts.h"
 
@@ -20,8 +21,8 @@ constexpr double most_passed = 0.04;
 // Lonely are samples whose third nearest one is so many spacings away: 3 % of samples at random places on a surface.
 constexpr double lonely_from = 1.5;
 // Lonely samples may be strays where more of them are passed by than not, and are where three quarters are: of clean
-// meshes a twentieth, of strays around bodies seven to nine tenths.
-constexpr double strays_from = 0.5, strays_at = 0.75;
+// meshes a twentieth, of strays around bodies seven to nine tenths. Where more than a tenth are, some may be.
+constexpr double strays_from = 0.5, strays_at = 0.75, perhaps_strays = 0.1;
 // So many samples for each stray that is passed by, near the surface or another stray, do not look lonely: 0.07 to 0.17
 // around boxes, plates, rods and cups.
 constexpr double strays_in_company = 0.1;
@@ -47,7 +48,7 @@ bool is_lonely(const MoveScene& scene, SampleIndex s) {
 
 /// What it costs to pass each sample by: nothing where noise exceeds the spacing, and the less the more noise or strays
 /// explain that samples of its kind, lonely ones or others, are passed by.
-std::vector<float> prices(const MoveScene& scene, const Labels& labels) {
+Moves::Prices prices(const MoveScene& scene, const Labels& labels) {
   const std::size_t n = scene.t.sample_count;
   std::vector<std::uint8_t> lonely(n), passed(n);
   for_each_index(scene.threads, n, [&](std::size_t at) {
@@ -62,12 +63,12 @@ std::vector<float> prices(const MoveScene& scene, const Labels& labels) {
   const double noise = off[0] / (most_passed * (on[0] + on[1]));
   const double in_company = off[0] > 0 ? strays * strays_in_company * off[1] / off[0] : 0;
   const std::array<double, 2> explained{std::max(noise, in_company), std::max(noise, strays)};
-  std::vector<float> price(n);
+  Moves::Prices result{std::vector<float>(n), share > perhaps_strays};
   for (std::size_t at = 0; at < n; ++at) {
     if (scene.model.is_noisy(SampleIndex{static_cast<std::uint32_t>(at)})) continue;
-    price[at] = static_cast<float>(sample_price * std::max(0.0, 1 - explained[lonely[at]]));
+    result.price[at] = static_cast<float>(sample_price * std::max(0.0, 1 - explained[lonely[at]]));
   }
-  return price;
+  return result;
 }
 
 } // namespace
@@ -87,10 +88,13 @@ std::array<NearSample, 3> nearest_samples(const MoveScene& scene, SampleIndex s)
   return nearest;
 }
 
-Moves::Moves(const MoveScene& s, TetrahedronLabels& labels)
+Moves::Moves(const MoveScene& s, TetrahedronLabels& labels) : Moves(s, labels, prices(s, labels.labels())) {}
+
+Moves::Moves(const MoveScene& s, TetrahedronLabels& labels, Prices prices)
     : scene(s),
+      among_strays(prices.strays),
       all_(labels),
-      priced_(s.t, s.stars, s.energy, s.model.spacing, prices(s, labels.labels()), labels, s.threads),
+      priced_(s.t, s.stars, s.energy, s.model.spacing, std::move(prices.price), labels, s.threads),
       repair_(s.t, s.stars, s.energy.known, priced_),
       link_(s.t, s.stars, labels.labels()),
       seen_(s.t.tetrahedra.size(), 0),

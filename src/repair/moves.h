@@ -40,6 +40,12 @@ class Moves {
   Moves(const MoveScene& scene, TetrahedronLabels& labels);
 
   const MoveScene scene;
+  const bool among_strays; ///< are lonely samples passed by so often that some may be strays?
+
+  struct Prices {
+    std::vector<float> price; ///< of each sample
+    bool strays;
+  };
   [[nodiscard]] const PricedLabels& labels() const { return priced_; }
 
   /// Mandatory moves: every star becomes a disc. The others expect that.
@@ -69,6 +75,7 @@ class Moves {
   void settle_values();
 
  private:
+  Moves(const MoveScene& scene, TetrahedronLabels& labels, Prices prices);
   void swallow_specks(const std::vector<TetrahedronIndex>& turned);
   void relax(const std::vector<TetrahedronIndex>& turned);
   bool turn_back(TetrahedronIndex i);

@@ -29,8 +29,8 @@ class SheetFinder {
     });
   }
 
-  PassedSheets find() {
-    PassedSheets result;
+  PassedSheetsReport find() {
+    PassedSheetsReport result;
     std::size_t largest = 0;
     for (std::size_t s = 0; s < in_sheet_.size(); ++s) {
       if (!in_sheet_[s]) continue;
@@ -92,6 +92,6 @@ class SheetFinder {
 
 } // namespace
 
-PassedSheets passed_sheets(const Moves& moves) { return SheetFinder(moves).find(); }
+PassedSheetsReport passed_sheets(const Moves& moves) { return SheetFinder(moves).find(); }
 
 } // namespace eigencrust

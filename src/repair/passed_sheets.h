@@ -3,20 +3,15 @@
 /// Sheets of samples that the labels leave out (not in the paper; docs/decisions/0050).
 #pragma once
 
-#include <cstdint>
+#include <eigencrust/report.h>
 
 #include "repair/moves.h"
 
 namespace eigencrust {
 
-struct PassedSheets {
-  std::uint64_t sheets = 0, samples = 0; ///< how many, and of how many samples
-  Vec3 at;                               ///< middle of the largest, in the cloud's coordinates
-};
-
 /// Samples side by side of which all lie outside, on no surface, though neither noise nor strays explain that: of a
 /// wall whose other side was not scanned, behind which nothing is solid then. Where they are taken in one by one later,
 /// what is around them is torn.
-PassedSheets passed_sheets(const Moves& moves);
+PassedSheetsReport passed_sheets(const Moves& moves);
 
 } // namespace eigencrust

@@ -102,6 +102,8 @@ RecoveryCounts recover_samples(Moves& moves) {
     });
     counts.samples += before - passed.size();
   }
+  // Strays near a flat face are in company, too, and far more of these moves reach them.
+  if (moves.among_strays) return counts;
   for (const SampleIndex s : passed)
     if (!moves.labels().on_surface(s)) counts.samples += take_in_by_several(moves, s);
   return counts;

@@ -92,6 +92,17 @@ std::string words_on_what_it_is(const Report& report) {
          " (the side that it was seen from) leaves it open behind";
 }
 
+/// Sheets that were taken in again leave no trace, as those of the sharp rim of a lens, or a hole, which is a handle.
+void warn_of_torn_walls(Run& run) {
+  const PassedSheetsReport& sheets = run.report().passed_sheets;
+  if (sheets.sheets == 0 || !(run.report().mesh.genus > 0)) return;
+  run.warn("the surface at first went past " + std::to_string(sheets.samples) +
+           " samples that lie side by side, as those of a wall do whose other side was not scanned there, most of "
+           "them around " +
+           place_in(run.report().bounds, sheets.at) +
+           ", and has holes: one may be there; look at it before you use it");
+}
+
 } // namespace
 
 void describe(const Samples& samples, Run& run) {
@@ -194,15 +205,10 @@ void describe(const ManifoldCounts& counts, Run& run) {
         "the labels as they are with --no-manifold");
 }
 
-void describe(const PassedSheets& sheets, Run& run) {
+void describe(const PassedSheetsReport& sheets, Run& run) {
+  run.report().passed_sheets = sheets;
   run.count("sheets", static_cast<double>(sheets.sheets));
   run.count("samples", static_cast<double>(sheets.samples));
-  if (sheets.sheets > 0)
-    run.warn("the surface at first went past " + std::to_string(sheets.samples) +
-             " samples that lie side by side, as those of a wall do whose other side was not scanned there, most of "
-             "them around " +
-             place_in(run.report().bounds, sheets.at) +
-             ": it may have a hole or a notch there; look at it before you use it");
 }
 
 void describe(const HandleCounts& counts, Run& run) { run.count("closed", static_cast<double>(counts.closed)); }
@@ -280,6 +286,7 @@ void describe(const EdgeFlipCounts& counts, Run& run) {
 
 void describe(const MeshSummary& mesh, Run& run) {
   run.report().mesh = mesh;
+  warn_of_torn_walls(run);
   run.report().broken_guarantees = broken_guarantees(mesh, run.report());
 }
 

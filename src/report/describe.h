@@ -13,8 +13,8 @@ namespace eigencrust {
 class Run;
 struct CentringCounts;
 struct HandleCounts;
+struct PassedSheetsReport;
 struct RecoveryCounts;
-struct PassedSheets;
 struct SampleMeasures;
 struct SamplesApart;
 struct TurnedOver;
@@ -40,7 +40,7 @@ void describe(const MinimumLabels& labels, Run& run);
 void describe(const Overlaps& overlaps, Run& run);
 void describe(const ManifoldCounts& counts, Run& run);
 void describe(const HandleCounts& counts, Run& run);
-void describe(const PassedSheets& sheets, Run& run);
+void describe(const PassedSheetsReport& sheets, Run& run);
 void describe(const RecoveryCounts& counts, Run& run);
 void describe(const Contradictions& contradictions, Run& run);
 void describe(const std::vector<DroppedComponent>& dropped, Run& run);

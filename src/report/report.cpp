@@ -109,6 +109,11 @@ Json json_of(const std::optional<OneSided>& scan) {
   return {{"direction", json_of(scan->direction)}, {"widest_angle", scan->widest_angle * 180 / std::numbers::pi}};
 }
 
+Json json_of(const PassedSheetsReport& sheets) {
+  return {
+      {"sheets", sheets.sheets}, {"samples", sheets.samples}, {"at", sheets.sheets > 0 ? json_of(sheets.at) : Json()}};
+}
+
 Json json_of(const BridgedReport& bridged) {
   return {{"places", bridged.places},
           {"widest", bridged.widest},
@@ -215,6 +220,7 @@ std::string to_json(const Report& report) {
       {"base", json_of(report.base)},
       {"unsupported_area", report.unsupported_area},
       {"bridged", json_of(report.bridged)},
+      {"passed_sheets", json_of(report.passed_sheets)},
       {"moved", json_of(report.moved)},
       {"simplified", json_of(report.simplified)},
       {"seconds", report.seconds},
