@@ -50,7 +50,8 @@ class SheetFinder {
 
   [[nodiscard]] bool is_passed(SampleIndex s) const {
     const PricedLabels& labels = moves_.labels();
-    return labels.price(s) > 0 && !labels.on_surface(s) && labels[moves_.scene.stars[s].front()] == Label::outside;
+    return !moves_.scene.model.is_noisy(s) && !labels.on_surface(s) &&
+           labels[moves_.scene.stars[s].front()] == Label::outside;
   }
 
   /// Distinct, increasing.

@@ -9,7 +9,7 @@
 
 namespace eigencrust {
 
-/// Samples side by side of which all lie outside, on no surface, though neither noise nor strays explain that: of a
+/// Samples side by side of which all lie outside, on no surface, though there is little noise: of a
 /// wall whose other side was not scanned, behind which nothing is solid then. Where they are taken in one by one later,
 /// what is around them is torn.
 PassedSheetsReport passed_sheets(const Moves& moves);
