@@ -25,7 +25,7 @@ struct StageShare {
   std::string_view name;
   double share;
 };
-constexpr std::array<StageShare, 32> shares{{{"reading", 3},
+constexpr std::array<StageShare, 33> shares{{{"reading", 3},
                                              {"samples", 4},
                                              {"sample_model", 8},
                                              {"delaunay", 24},
@@ -45,6 +45,7 @@ constexpr std::array<StageShare, 32> shares{{{"reading", 3},
                                              {"manifold", 4},
                                              {"sheets", 1},
                                              {"handles", 4},
+                                             {"pieces", 1},
                                              {"recover", 1},
                                              {"surface", 1},
                                              {"support", 1},

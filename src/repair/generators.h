@@ -9,6 +9,12 @@
 
 namespace eigencrust {
 
+struct PieceCounts {
+  std::uint64_t dropped = 0;
+};
+/// Small bodies and hollows, whole.
+PieceCounts drop_pieces(Moves& moves);
+
 struct HandleCounts {
   std::uint64_t closed = 0;
 };

@@ -8,27 +8,18 @@
 #include "geometry/tetrahedron.h"
 #include "repair/generators.h"
 #include "repair/handle_loops.h"
+#include "repair/reach_of_noise.h"
 #include "repair/surface_fronts.h"
 #include "tetrahedra/segment_walk.h"
 
 namespace eigencrust {
 namespace {
 
-// Noise makes tunnels and bridges as wide as this at most, in deviations. Closing one turns faces over a disc of that
-// radius, two for each sample, which cost about one each: g = 2π (16 σ / h)².
-constexpr double noise_reach = 16;
-// In spacings: no wider, however strong the noise. Its samples fill a band then, in which a tunnel or bridge of noise
-// is some tetrahedra wide. What costs more to close goes through something that is there: a bar, a window.
-constexpr double widest_reach = 5;
-// In spacings. Samples show a tunnel where they stand at half of its radius (Amenta and Bern's r = 1/2), 4π around it:
-// a narrower one may be a gap between them. A wider one is meant.
-constexpr double sampling_reach = 2;
 // Longer loops go around what is there.
 constexpr std::uint32_t longest_loop = 100;
 // No loop that is worth something goes farther from any of its samples, in edges.
 constexpr auto widest_radius = static_cast<std::uint32_t>(std::numbers::pi * widest_reach) + 1;
-// Tetrahedra of a disc for each unit of what closing the handle is worth: each costs a good part of one.
-constexpr double tetrahedra_per_worth = 8;
+
 class HandleClosing {
  public:
   explicit HandleClosing(Moves& moves)
@@ -113,17 +104,10 @@ class HandleClosing {
     return true;
   }
 
-  /// g: what closing a handle of this loop is worth; 0: it is wider than that.
+  /// g: what closing a handle of this loop is worth; 0: it is wider than noise makes one.
   double worth_of(const Loop& loop) const {
-    const SampleModel& model = moves_.scene.model;
-    double noise = 0, spacing = 0;
-    for (const std::uint32_t s : loop) {
-      noise += static_cast<double>(model.input_noise[SampleIndex{s}]);
-      spacing += static_cast<double>(model.spacing[SampleIndex{s}]);
-    }
-    const double reach = std::clamp(noise_reach * noise / spacing, sampling_reach, widest_reach);
-    const bool is_meant = static_cast<double>(loop.size()) > 2 * std::numbers::pi * reach;
-    return is_meant ? 0 : 2 * std::numbers::pi * reach * reach;
+    const double reach = reach_of_noise(moves_.scene.model, loop);
+    return static_cast<double>(loop.size()) > 2 * std::numbers::pi * reach ? 0 : worth_of_reach(reach);
   }
 
   /// The better of filling and cutting, of the disc alone or with the stars of the loop.
@@ -131,7 +115,7 @@ class HandleClosing {
     Moves::Outcome best;
     for (const bool with_stars : {false, true}) {
       const Region disc = disc_of(loop, with_stars);
-      if (static_cast<double>(disc.size()) > tetrahedra_per_worth * worth) break;
+      if (disc.size() > most_tetrahedra(worth)) break;
       for (const Label from : {Label::outside, Label::inside}) {
         Region turned;
         for (const TetrahedronIndex i : disc)

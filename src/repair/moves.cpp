@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -133,8 +134,8 @@ Moves::Outcome Moves::weigh(std::span<const TetrahedronIndex> region, double han
   outcome.turned = priced_.turned_since(then);
   outcome.change = priced_.cost() - before;
   const std::int64_t euler = -priced_.back_with_euler(then);
-  // At best two more in the Euler characteristic are a handle less.
-  if (!(outcome.change - handle * static_cast<double>(std::max<std::int64_t>(euler, 0)) / 2 < 0)) return {};
+  // At best two more in the Euler characteristic are a handle less, two fewer a piece less.
+  if (!(outcome.change - handle * static_cast<double>(std::abs(euler)) / 2 < 0)) return {};
   const std::vector<std::uint32_t> around = samples_of(outcome.turned);
   const std::int64_t pieces_before = pieces_at(around);
   make(outcome);
@@ -149,27 +150,39 @@ Moves::Outcome Moves::weigh(std::span<const TetrahedronIndex> region, double han
 
 /// Small sets of equal label beside what was turned that all else surrounds turn, too.
 void Moves::swallow_specks(const std::vector<TetrahedronIndex>& turned) {
-  std::vector<TetrahedronIndex> seen, speck;
+  std::vector<TetrahedronIndex> seen;
   for (const TetrahedronIndex beside : turned)
-    for (const TetrahedronIndex start : scene.t.neighbours[beside]) {
-      if (!start.valid() || seen_[start.value] || !is_open(start)) continue;
-      speck.assign(1, start);
-      seen_[start.value] = 1;
-      bool is_speck = true;
-      for (std::size_t k = 0; k < speck.size() && is_speck; ++k)
-        for (const TetrahedronIndex n : scene.t.neighbours[speck[k]]) {
-          if (!n.valid() || priced_[n] != priced_[start]) continue;
-          // What was seen before belongs to more than a speck, or is this one.
-          is_speck = is_speck && is_open(n) && (!seen_[n.value] || std::count(speck.begin(), speck.end(), n) > 0);
-          if (seen_[n.value] || !is_speck) continue;
-          seen_[n.value] = 1;
-          speck.push_back(n);
-          is_speck = speck.size() <= few_tetrahedra;
-        }
-      seen.insert(seen.end(), speck.begin(), speck.end());
-      if (!is_speck) continue;
-      for (const TetrahedronIndex i : speck) priced_.turn(i);
+    for (const TetrahedronIndex start : scene.t.neighbours[beside])
+      if (start.valid())
+        for (const TetrahedronIndex i : speck_at(start, few_tetrahedra, seen)) priced_.turn(i);
+  forget(seen);
+}
+
+std::span<const TetrahedronIndex> Moves::speck_at(TetrahedronIndex start, std::uint64_t most,
+                                                  std::vector<TetrahedronIndex>& seen) {
+  constexpr std::uint8_t earlier = 1, now = 2;
+  if (seen_[start.value] || !is_open(start)) return {};
+  std::vector<TetrahedronIndex>& speck = speck_;
+  speck.assign(1, start);
+  seen_[start.value] = now;
+  bool is_speck = true;
+  for (std::size_t k = 0; k < speck.size() && is_speck; ++k)
+    for (const TetrahedronIndex n : scene.t.neighbours[speck[k]]) {
+      if (!n.valid() || priced_[n] != priced_[start]) continue;
+      // What was seen earlier belongs to more than a speck.
+      is_speck = is_speck && is_open(n) && seen_[n.value] != earlier;
+      if (seen_[n.value] || !is_speck) continue;
+      seen_[n.value] = now;
+      speck.push_back(n);
+      is_speck = speck.size() <= most;
     }
+  for (const TetrahedronIndex i : speck) seen_[i.value] = earlier;
+  seen.insert(seen.end(), speck.begin(), speck.end());
+  if (!is_speck) speck.clear();
+  return speck;
+}
+
+void Moves::forget(std::span<const TetrahedronIndex> seen) {
   for (const TetrahedronIndex i : seen) seen_[i.value] = 0;
 }
 

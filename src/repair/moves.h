@@ -58,7 +58,7 @@ class Moves {
     std::int64_t pieces = 0, handles = 0; ///< more of them
   };
   /// Turns these, mends the stars around, turns back what need not be, and then takes it all back.
-  /// \param handle g: what one handle less is worth here
+  /// \param handle g: what one handle or piece less is worth here
   Outcome weigh(std::span<const TetrahedronIndex> turned, double handle);
   void make(const Outcome& outcome);
   /// Turns one of which three vertices are a triangle of the surface and the fourth is passed by: that changes
@@ -69,6 +69,12 @@ class Moves {
   [[nodiscard]] bool is_open(TetrahedronIndex i) const {
     return scene.energy.known[i] == Label::unlabelled && !scene.t.touches_cube(i);
   }
+  /// All that hangs together with `start` on its side; none where that is more than `most` tetrahedra, or may not turn,
+  /// or was seen. Adds what it has looked at to `seen`, which is to be forgotten before anything turns but specks.
+  /// \return valid until the next call
+  std::span<const TetrahedronIndex> speck_at(TetrahedronIndex start, std::uint64_t most,
+                                             std::vector<TetrahedronIndex>& seen);
+  void forget(std::span<const TetrahedronIndex> seen);
   /// Distinct samples of these tetrahedra, increasing.
   [[nodiscard]] std::vector<std::uint32_t> samples_of(std::span<const TetrahedronIndex> tetrahedra) const;
   /// Makes the values at all that was turned what the energy says of them now.
@@ -85,6 +91,7 @@ class Moves {
   PricedLabels priced_;
   StarRepair repair_;
   LinkCheck link_;
+  std::vector<TetrahedronIndex> speck_;
   std::vector<std::uint8_t> seen_;   ///< tetrahedra, while specks are looked for
   std::vector<std::uint32_t> owner_; ///< while pieces are counted: which front reached the sample
 };

@@ -18,6 +18,7 @@ TetrahedronLabels repair(const Scene& scene, const Evidence& evidence, Settled s
     run.stage("manifold", [&] { return moves.make_manifold(run.checkpoint()); });
     run.stage("sheets", [&] { return passed_sheets(moves); });
     run.stage("handles", [&] { return close_handles(moves, run.checkpoint()); });
+    run.stage("pieces", [&] { return drop_pieces(moves); });
     run.stage("recover", [&] { return recover_samples(moves); });
     moves.settle_values();
     run.count("energy", settled.energy.of(t, labels.labels(), threads));

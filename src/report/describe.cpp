@@ -211,6 +211,8 @@ void describe(const PassedSheetsReport& sheets, Run& run) {
   run.count("samples", static_cast<double>(sheets.samples));
 }
 
+void describe(const PieceCounts& counts, Run& run) { run.count("dropped", static_cast<double>(counts.dropped)); }
+
 void describe(const HandleCounts& counts, Run& run) { run.count("closed", static_cast<double>(counts.closed)); }
 
 void describe(const RecoveryCounts& counts, Run& run) { run.count("samples", static_cast<double>(counts.samples)); }

@@ -13,6 +13,7 @@ namespace eigencrust {
 class Run;
 struct CentringCounts;
 struct HandleCounts;
+struct PieceCounts;
 struct PassedSheetsReport;
 struct RecoveryCounts;
 struct SampleMeasures;
@@ -39,6 +40,7 @@ void describe(const PoleLabels& labels, Run& run);
 void describe(const MinimumLabels& labels, Run& run);
 void describe(const Overlaps& overlaps, Run& run);
 void describe(const ManifoldCounts& counts, Run& run);
+void describe(const PieceCounts& counts, Run& run);
 void describe(const HandleCounts& counts, Run& run);
 void describe(const PassedSheetsReport& sheets, Run& run);
 void describe(const RecoveryCounts& counts, Run& run);

@@ -134,6 +134,56 @@ struct Solid : clouds::MoveStage {
   }
 };
 
+/// A ball, and a small one beside it that may be noise.
+Solid ball_and_speck(float certainty) {
+  const auto in_speck = [](const Vec3& c) { return norm(c - Vec3{0.65, 0, 0}) < 0.2; };
+  return Solid([&](const Vec3& c) { return norm(c + Vec3{0.3, 0, 0}) < 0.5 || in_speck(c); }, in_speck, certainty);
+}
+std::uint64_t drop(Solid& solid) {
+  Moves engine = solid.moves();
+  const std::uint64_t dropped = drop_pieces(engine).dropped;
+  if (dropped > 0) engine.settle_values();
+  return dropped;
+}
+
+TEST(DropPieces, WhatHardlyAnyoneVouchesForGoes) {
+  Solid solid = ball_and_speck(0.05f);
+  const MeshSummary before = solid.summary();
+  ASSERT_EQ(before.components, 2);
+  EXPECT_EQ(drop(solid), 1u);
+  const MeshSummary after = solid.summary();
+  EXPECT_EQ(after.components, 1);
+  EXPECT_LT(after.volume, before.volume);
+  EXPECT_TRUE(clouds::is_closed_manifold(after));
+  EXPECT_EQ(drop(solid), 0u); // the ball stays
+}
+
+TEST(DropPieces, WhatTheSamplesVouchForStays) {
+  Solid solid = ball_and_speck(5.0f);
+  ASSERT_EQ(solid.summary().components, 2);
+  solid.set_noise(0.25f);
+  EXPECT_EQ(drop(solid), 0u);
+  EXPECT_EQ(solid.summary().components, 2);
+}
+
+TEST(DropPieces, WhatIsKnownStays) {
+  Solid solid = ball_and_speck(0.05f);
+  for (TetrahedronIndex i{0}; i.value < solid.labels.size(); ++i.value)
+    if (norm(clouds::centroid(solid.p.t, i) - Vec3{0.65, 0, 0}) < 0.12) solid.energy.known[i] = solid.labels[i];
+  EXPECT_EQ(drop(solid), 0u);
+  EXPECT_EQ(solid.summary().components, 2);
+}
+
+TEST(DropPieces, AHollowIsFilled) {
+  const auto in_hollow = [](const Vec3& c) { return norm(c) < 0.2; };
+  Solid solid([&](const Vec3& c) { return norm(c) < 0.75 && !in_hollow(c); }, in_hollow, 0.05f);
+  const double before = solid.summary().volume;
+  ASSERT_EQ(solid.summary().components, 2);
+  EXPECT_EQ(drop(solid), 1u);
+  EXPECT_EQ(solid.summary().components, 1);
+  EXPECT_GT(solid.summary().volume, before);
+}
+
 constexpr double ball_radius = 0.75, tunnel_radius = 0.2;
 bool in_ball(const Vec3& c) { return norm(c) < ball_radius; }
 bool in_tunnel(const Vec3& c) { return std::hypot(c.x, c.y) < tunnel_radius && std::fabs(c.z) < ball_radius; }
