@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -118,7 +117,7 @@ std::vector<std::uint32_t> Moves::samples_of(std::span<const TetrahedronIndex> t
   return samples;
 }
 
-Moves::Outcome Moves::weigh(std::span<const TetrahedronIndex> region, double handle) {
+Moves::Outcome Moves::weigh(std::span<const TetrahedronIndex> region, double handle, Gain gain) {
   const std::size_t then = priced_.now();
   const double before = priced_.cost();
   for (const TetrahedronIndex i : region) priced_.turn(i);
@@ -135,7 +134,8 @@ Moves::Outcome Moves::weigh(std::span<const TetrahedronIndex> region, double han
   outcome.change = priced_.cost() - before;
   const std::int64_t euler = -priced_.back_with_euler(then);
   // At best two more in the Euler characteristic are a handle less, two fewer a piece less.
-  if (!(outcome.change - handle * static_cast<double>(std::abs(euler)) / 2 < 0)) return {};
+  const std::int64_t hoped = gain == Gain::handles ? euler : -euler;
+  if (!(outcome.change - handle * static_cast<double>(std::max<std::int64_t>(hoped, 0)) / 2 < 0)) return {};
   const std::vector<std::uint32_t> around = samples_of(outcome.turned);
   const std::int64_t pieces_before = pieces_at(around);
   make(outcome);

@@ -57,9 +57,11 @@ class Moves {
     std::vector<TetrahedronIndex> turned;
     std::int64_t pieces = 0, handles = 0; ///< more of them
   };
+  /// What a move is hoped to make fewer: whether it did is looked at only where it may have.
+  enum class Gain : std::uint8_t { handles, pieces };
   /// Turns these, mends the stars around, turns back what need not be, and then takes it all back.
   /// \param handle g: what one handle or piece less is worth here
-  Outcome weigh(std::span<const TetrahedronIndex> turned, double handle);
+  Outcome weigh(std::span<const TetrahedronIndex> turned, double handle, Gain gain = Gain::handles);
   void make(const Outcome& outcome);
   /// Turns one of which three vertices are a triangle of the surface and the fourth is passed by: that changes
   /// neither handles nor pieces.

@@ -50,7 +50,7 @@ PieceCounts drop_pieces(Moves& moves) {
     const auto samples = moves.samples_of(region);
     const double worth = worth_of_reach(reach_of_noise(moves.scene.model, samples));
     if (region.size() > most_tetrahedra(worth)) continue;
-    const Moves::Outcome outcome = moves.weigh(region, worth);
+    const Moves::Outcome outcome = moves.weigh(region, worth, Moves::Gain::pieces);
     if (!(outcome.change < 0)) continue;
     moves.make(outcome);
     ++counts.dropped;
