@@ -31,9 +31,11 @@ void DataTerms::add_ties(SampleIndex s, TetrahedronIndex i, const Vec3& centre, 
   const auto add = [&](PoleIndex p, double cost) {
     (label(p) == Label::outside ? sum.outside : sum.inside) += static_cast<float>(cost);
   };
+  // A sample with both poles on one side is not on the surface; where a hole lets balls through, such ties would hold a
+  // spike up to a stray.
+  if (label(first) == label(second)) return;
   for (const PoleIndex p : {first, second})
     if (poles_.tetrahedron[p] == i && label(p) != Label::unlabelled) return add(p, strongest_tie * trust(p));
-  if (label(first) == label(second)) return;
   // Of two poles one often lies within the noise; beyond that the other still knows its side. Elsewhere one alone would
   // eat away what is thin.
   const bool is_labelled = label(first) != Label::unlabelled && label(second) != Label::unlabelled;

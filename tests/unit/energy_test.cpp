@@ -187,13 +187,19 @@ TEST(MinimumEnergy, NoMoveOfOneOrTwoTetrahedraMakesItLess) {
   EXPECT_EQ(minimum.labels.values().raw(), again.labels.values().raw());
 }
 
-/// All that the samples of a sphere say when its poles are labelled by the truth.
-TEST(DataTerms, TiesPointToTheTrueSide) {
-  const Prepared p = clouds::prepare(clouds::sphere(2000));
+/// Labels of the truth, and full trust in them.
+PoleLabels true_labels(const Prepared& p) {
   PoleLabels labels{p.known, IndexedArray<TetrahedronIndex, std::uint8_t>(p.known.size(), 255)};
   for (const TetrahedronIndex i : p.poles.tetrahedron)
     if (labels.labels[i] == Label::unlabelled)
       labels.labels[i] = norm(clouds::centroid(p.t, i) + p.t.origin) < 1 ? Label::inside : Label::outside;
+  return labels;
+}
+
+/// All that the samples of a sphere say when its poles are labelled by the truth.
+TEST(DataTerms, TiesPointToTheTrueSide) {
+  const Prepared p = clouds::prepare(clouds::sphere(2000));
+  const PoleLabels labels = true_labels(p);
   const SampleModel model = sample_model(std::span(p.t.positions.raw()).first(p.t.sample_count), 0.0, Threads(1));
   const NoisePlanes planes(p.t, p.poles, labels.labels, model, Threads(1));
   const DataTerms data(p.t, p.poles, labels, planes, {}, nullptr);
@@ -221,6 +227,24 @@ TEST(DataTerms, TiesPointToTheTrueSide) {
       EXPECT_GT(labels.labels[i] == Label::outside ? alone(i).outside : alone(i).inside, 2);
     }
   }
+}
+
+TEST(DataTerms, ASampleWithBothPolesOnOneSideTiesNothing) {
+  const Prepared p = clouds::prepare(clouds::sphere(500));
+  PoleLabels labels = true_labels(p);
+  const SampleModel model = sample_model(std::span(p.t.positions.raw()).first(p.t.sample_count), 0.0, Threads(1));
+  const NoisePlanes planes(p.t, p.poles, labels.labels, model, Threads(1));
+  const auto term_of = [&](TetrahedronIndex i) { return DataTerms(p.t, p.poles, labels, planes, {}, nullptr)(i); };
+  TetrahedronIndex deep;
+  for (const PolePair& pair : p.poles.of_sample)
+    for (const PoleIndex pole : {pair.first, pair.second})
+      if (labels.labels[p.poles.tetrahedron[pole]] == Label::inside) deep = p.poles.tetrahedron[pole];
+  ASSERT_TRUE(deep.valid());
+  const float before = term_of(deep).inside;
+  EXPECT_GT(before, strongest_tie);
+  for (const TetrahedronIndex i : p.poles.tetrahedron) labels.labels[i] = Label::inside;
+  EXPECT_FLOAT_EQ(term_of(deep).inside, static_cast<float>(strongest_tie / 2));
+  EXPECT_EQ(term_of(deep).outside, 0);
 }
 
 TEST(DataTerms, LinesOfSightCount) {
