@@ -8,6 +8,7 @@
 #include "geometry/tetrahedron.h"
 #include "repair/generators.h"
 #include "repair/handle_loops.h"
+#include "repair/loop_sides.h"
 #include "repair/reach_of_noise.h"
 #include "repair/surface_fronts.h"
 #include "tetrahedra/segment_walk.h"
@@ -23,7 +24,11 @@ constexpr auto widest_radius = static_cast<std::uint32_t>(std::numbers::pi * wid
 class HandleClosing {
  public:
   explicit HandleClosing(Moves& moves)
-      : moves_(moves), t_(moves.scene.t), stars_(moves.scene.stars), taken_(t_.tetrahedra.size(), 0) {}
+      : moves_(moves),
+        t_(moves.scene.t),
+        stars_(moves.scene.stars),
+        sides_(t_, stars_, moves.labels()),
+        taken_(t_.tetrahedra.size(), 0) {}
 
   /// The first round looks for loops all over the surface; later ones look again where something was closed.
   std::uint64_t run(const Checkpoint& checkpoint) {
@@ -94,7 +99,8 @@ class HandleClosing {
   bool close(const Loop& loop) {
     const double worth = worth_of(loop);
     if (!(worth > 0) || failed_.count(loop) > 0) return false;
-    const Moves::Outcome best = best_move(loop, worth);
+    const Moves::Outcome best =
+        sides_.fall_apart(loop, most_tetrahedra(worth)) ? Moves::Outcome{} : best_move(loop, worth);
     if (best.turned.empty()) {
       failed_.insert(loop);
       return false;
@@ -161,6 +167,7 @@ class HandleClosing {
   Moves& moves_;
   const Tetrahedralization& t_;
   const VertexStars& stars_;
+  LoopSides sides_;
   std::set<Loop> failed_;        ///< loops that nothing closed
   std::size_t surface_size_ = 0; ///< vertices
   std::uint32_t round_ = 0;
