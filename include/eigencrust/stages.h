@@ -127,14 +127,19 @@ SightLabels line_of_sight(const Tetrahedralization& tetrahedralization, const Ve
 std::vector<std::uint8_t> questionable_tetrahedra(const Tetrahedralization& tetrahedralization,
                                                   SampleLengthsView grid_spacing, const Threads& threads);
 
+/// What is known of the samples for the pole graph; either may be empty.
+struct PoleGraphSamples {
+  SampleLengthsView isolated = {};          ///< their pole pairs count only as far as their cells are long
+  std::span<const std::uint8_t> noisy = {}; ///< their poles join along no chains; anything but 0: noisy
+};
 /// §3.1: the signed graph on the poles with the outside supernode (0) and, when something is known to be
-/// inside, the inside supernode (1). Poles of tetrahedra in `left_out` (may be empty) are no nodes. The pole
-/// pairs of `isolated` samples (may be empty) count only as far as their cells are long. With `contract` each
-/// pole is one node with the largest pole of neighbouring samples whose ball nearly coincides with its own
-/// (cos φ < -0.93) and that is not its opposite pole; the node's edges are the sums of theirs (not in the paper, where
-/// an edge of weight e^8 joins them; docs/decisions/0025).
+/// inside, the inside supernode (1). Poles of tetrahedra in `left_out` (may be empty) are no nodes. With `contract`
+/// each pole is one node with the largest pole of neighbouring samples whose ball nearly coincides with its own (cos φ
+/// < -0.93) and that is not its opposite pole; a pole of noisy samples only where its ball nearly coincides (cos φ <
+/// -0.8) with the largest of that node, too. The node's edges are the sums of theirs (not in the paper, where an edge
+/// of weight e^8 joins them; docs/decisions/0025).
 PoleGraph pole_graph(const Tetrahedralization& tetrahedralization, const VertexStars& stars, const Poles& poles,
-                     const Labels& known, std::span<const std::uint8_t> left_out, SampleLengthsView isolated,
+                     const Labels& known, std::span<const std::uint8_t> left_out, const PoleGraphSamples& samples,
                      bool contract, const Threads& threads);
 
 /// Called now and then with the fraction done; may throw to cancel.

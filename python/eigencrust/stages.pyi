@@ -237,6 +237,7 @@ def pole_graph(
     known: ArrayLike,
     left_out: Optional[ArrayLike] = None,
     isolated: Optional[ArrayLike] = None,
+    noisy: Optional[ArrayLike] = None,
     contract: bool = True,
     threads: int = 0,
 ) -> PoleGraph: ...

@@ -221,19 +221,23 @@ void bind_pole_graph(py::module_& m) {
   m.def(
       "pole_graph",
       [](const Tets& t, const VertexStars& stars, const Poles& poles, const py::object& known,
-         const py::object& left_out, const py::object& isolated, bool contract, unsigned threads) {
+         const py::object& left_out, const py::object& isolated, const py::object& noisy, bool contract,
+         unsigned threads) {
         check(stars, t);
         check(poles, t);
         const Labels labels = to_labels(known, "known", t);
         const std::vector<std::uint8_t> without = to_bytes(left_out, "left_out", t.tetrahedra.size(), 1, true);
         const SampleLengths lonely(to_floats(isolated, "isolated", t.sample_count));
+        const std::vector<std::uint8_t> in_noise = to_bytes(noisy, "noisy", t.sample_count, 1, true);
         const py::gil_scoped_release unlocked;
         return std::make_shared<PoleGraph>(
-            pole_graph(t, stars, poles, labels, without, lonely, contract, Threads(threads)));
+            pole_graph(t, stars, poles, labels, without, {lonely, in_noise}, contract, Threads(threads)));
       },
       py::arg("tetrahedralization"), py::arg("stars"), py::arg("poles"), py::arg("known"),
-      py::arg("left_out") = py::none(), py::arg("isolated") = py::none(), py::arg("contract") = true,
-      py::arg("threads") = 0, "§3.1: the signed graph on the poles with its supernodes.");
+      py::arg("left_out") = py::none(), py::arg("isolated") = py::none(), py::arg("noisy") = py::none(),
+      py::arg("contract") = true, py::arg("threads") = 0,
+      "§3.1: the signed graph on the poles with its supernodes. isolated: a length per sample, 0 where it is not; "
+      "noisy: bool per sample, whose poles join no chains.");
 }
 
 void bind_partition(py::module_& m) {

@@ -85,4 +85,29 @@ void split_rows(CompressedRows<std::pair<A, B>> rows, std::vector<std::uint64_t>
   for_each_index(threads, rows.item.size(), [&](std::size_t i) { std::tie(first[i], second[i]) = rows.item[i]; });
 }
 
+/// The same of a symmetric matrix, from the entries right of its diagonal.
+template <class B>
+void mirror_rows(CompressedRows<std::pair<std::uint32_t, B>> upper, std::vector<std::uint64_t>& begin,
+                 std::vector<std::uint32_t>& column, std::vector<B>& value, const Threads& threads) {
+  const std::size_t rows = upper.begin.size() - 1;
+  begin.assign(rows + 1, 0);
+  for (const auto& [j, v] : upper.item) ++begin[j + 1];
+  for (std::size_t i = 0; i < rows; ++i) begin[i + 1] += begin[i] + upper[i].size();
+  column.resize(begin.back());
+  value.resize(begin.back());
+  std::vector<std::uint64_t> place(begin.begin(), begin.end() - 1);
+  for (std::uint32_t i = 0; i < rows; ++i)
+    for (const auto& [j, v] : upper[i]) {
+      column[place[j]] = i;
+      value[place[j]++] = v;
+    }
+  for_each_index(threads, rows, [&](std::size_t i) {
+    std::uint64_t at = place[i];
+    for (const auto& [j, v] : upper[i]) {
+      column[at] = j;
+      value[at++] = v;
+    }
+  });
+}
+
 } // namespace eigencrust

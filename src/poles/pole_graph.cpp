@@ -62,66 +62,105 @@ double same_weight(const Sphere& a, const Sphere& b) {
   return std::exp(steepness * (1 - std::max(cosine, -1.0)));
 }
 
+/// Calls visit for both poles of all neighbours of a sample, and for the neighbour.
+template <class Visit>
+void for_each_pole_beside(const Poles& poles, const Lists& neighbours, std::uint32_t sample, Visit&& visit) {
+  for (const std::uint32_t neighbour : neighbours[sample]) {
+    visit(poles.of_sample.raw()[neighbour].first, neighbour);
+    visit(poles.of_sample.raw()[neighbour].second, neighbour);
+  }
+}
+
 /// Clusters of poles (docs/decisions/0025): balls that nearly coincide are on the same side, so each pole joins the
-/// largest ball around that its own nearly coincides with.
+/// largest ball around that its own nearly coincides with. Only upward: a chain of balls through the noise would
+/// otherwise join one side with the other. Going upward through the gap in a wall is such a chain, too, so in noise a
+/// pole joins the first, largest ball of a cluster or none.
 class Contraction {
  public:
-  Contraction(const Poles& poles, const Lists& neighbours, const std::vector<std::uint32_t>& node_of,
-              SampleLengthsView isolated, const Threads& threads)
-      : parent_(poles.tetrahedron.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-    const auto is_node = [&](PoleIndex p) { return p.valid() && node_of[p.value] < inside_node; };
-    const auto coincide = [&](PoleIndex p, PoleIndex q) {
-      return p != q && is_node(p) && is_node(q) && cosine_of_spheres(poles.sphere[p], poles.sphere[q]) < nearly_one;
+  Contraction(const Poles& poles, const Lists& neighbours, const Lists& samples_of,
+              const std::vector<std::uint32_t>& node_of, const PoleGraphSamples& samples, const Threads& threads)
+      : spheres_(poles.sphere.raw()),
+        radius_(spheres_.size()),
+        in_noise_(spheres_.size(), 0),
+        first_(spheres_.size(), no_node) {
+    for_each_index(threads, spheres_.size(),
+                   [&](std::size_t p) { radius_[p] = node_of[p] < inside_node ? spheres_[p].radius : 0; });
+    const auto is_isolated = [&](std::uint32_t s) {
+      return !samples.isolated.empty() && samples.isolated[SampleIndex{s}] > 0;
     };
-    const auto is_isolated = [&](std::size_t s) {
-      return !isolated.empty() && isolated[SampleIndex{static_cast<std::uint32_t>(s)}] > 0;
-    };
-    using Pair = std::array<std::uint32_t, 2>;
-    const auto write = [&](std::size_t s, std::vector<Pair>& pairs) {
-      for (const std::uint32_t n : neighbours[s]) {
-        if (n < s || is_isolated(s) || is_isolated(n)) continue;
-        const PolePair &here = poles.of_sample.raw()[s], &there = poles.of_sample.raw()[n];
-        for (const PoleIndex p : {here.first, here.second})
-          for (const PoleIndex q : {there.first, there.second})
-            if (coincide(p, q)) pairs.push_back({p.value, q.value});
-      }
-    };
-    const auto pairs = build_rows<Pair>(threads, poles.of_sample.size(), default_block, [&] { return write; });
-    // Upward only: a chain of balls through the noise would otherwise join one side with the other.
-    const auto is_larger = [&](std::uint32_t p, std::uint32_t q) {
-      return std::pair(poles.sphere.raw()[p].radius, q) > std::pair(poles.sphere.raw()[q].radius, p);
-    };
-    std::vector<std::uint32_t> largest(parent_);
-    for (auto [p, q] : pairs.item) {
-      if (is_larger(p, q)) std::swap(p, q);
-      if (is_larger(q, largest[p])) largest[p] = q;
-    }
-    for (std::uint32_t p = 0; p < largest.size(); ++p) unite(p, largest[p]);
+    const auto may_join = build_rows<std::uint32_t>(threads, spheres_.size(), block_with_table(spheres_.size()), [&] {
+      return [&, larger = DistinctNumbers(spheres_.size())](std::size_t p, std::vector<std::uint32_t>& row) mutable {
+        if (node_of[p] >= inside_node) return;
+        larger.clear();
+        for (const std::uint32_t s : samples_of[p]) {
+          if (!samples.noisy.empty() && samples.noisy[s] != 0) in_noise_[p] = 1;
+          if (is_isolated(s)) continue;
+          for_each_pole_beside(poles, neighbours, s, [&](PoleIndex q, std::uint32_t neighbour) {
+            if (q.valid() && is_larger(q.value, p) && !is_isolated(neighbour)) larger.add(q.value);
+          });
+        }
+        append_joinable(static_cast<std::uint32_t>(p), larger.numbers(), row);
+      };
+    });
+    for (std::uint32_t p = 0; p < first_.size(); ++p) join(p, may_join);
   }
 
-  std::uint32_t first_of(std::uint32_t p) {
-    while (parent_[p] != p) p = parent_[p] = parent_[parent_[p]];
-    return p;
-  }
+  /// The largest pole of the cluster.
+  [[nodiscard]] std::uint32_t first_of(std::uint32_t p) const { return first_[p]; }
 
  private:
-  // The cosine of balls that coincide. At -0.8 clusters of the raw armadillo hold poles of both sides
-  // (docs/decisions/0025).
-  static constexpr double nearly_one = -0.93;
+  // Between -0.98 and -0.9 all raw scans come out the same, at -0.8 clusters of the raw armadillo hold poles of both
+  // sides. In noise, the first ball may differ more from one that joins it than any two along the chain to it.
+  static constexpr double nearly_one = -0.93, nearly_one_with_first = -0.8;
 
-  void unite(std::uint32_t p, std::uint32_t q) {
-    p = first_of(p);
-    q = first_of(q);
-    parent_[std::max(p, q)] = std::min(p, q);
+  [[nodiscard]] bool is_larger(std::size_t p, std::size_t q) const {
+    return radius_[p] > radius_[q] || (radius_[p] == radius_[q] && p < q);
+  }
+  [[nodiscard]] bool coincide(std::uint32_t p, std::uint32_t q, double cosine) const {
+    return cosine_of_spheres(spheres_[p], spheres_[q]) < cosine;
   }
 
-  std::vector<std::uint32_t> parent_;
+  /// In noise every larger ball that the pole's own nearly coincides with, else the largest one.
+  void append_joinable(std::uint32_t p, const std::vector<std::uint32_t>& larger, std::vector<std::uint32_t>& row) {
+    std::uint32_t largest = p;
+    for (const std::uint32_t q : larger) {
+      if (!(in_noise_[p] || is_larger(q, largest)) || !coincide(p, q, nearly_one)) continue;
+      if (in_noise_[p])
+        row.push_back(q);
+      else
+        largest = q;
+    }
+    if (largest != p) row.push_back(largest);
+  }
+
+  /// Finds the first of a pole, after those of all that it may join, which are larger.
+  void join(std::uint32_t p, const Lists& may_join) {
+    waiting_.push_back(p);
+    while (!waiting_.empty()) {
+      const std::uint32_t here = waiting_.back();
+      const std::size_t before = waiting_.size();
+      for (const std::uint32_t q : may_join[here])
+        if (first_[q] == no_node) waiting_.push_back(q);
+      if (waiting_.size() > before) continue;
+      waiting_.pop_back();
+      std::uint32_t first = here;
+      for (const std::uint32_t q : may_join[here])
+        if (is_larger(first_[q], first) && (!in_noise_[here] || coincide(here, first_[q], nearly_one_with_first)))
+          first = first_[q];
+      first_[here] = first;
+    }
+  }
+
+  const std::vector<Sphere>& spheres_;
+  std::vector<double> radius_;         ///< of each pole, 0: no node
+  std::vector<std::uint8_t> in_noise_; ///< of each pole: one of its samples is noisy
+  std::vector<std::uint32_t> first_, waiting_;
 };
 
 using Entry = std::pair<std::uint32_t, float>; ///< column and weight
 
-/// Assembles rows one by one from the stars: no pair list, no global sort, and no edge within a cluster.
+/// Assembles rows one by one from the stars, each edge in the row of the smaller node: no pair list, no global sort,
+/// and no edge within a cluster.
 class RowAssembler {
  public:
   RowAssembler(const Tetrahedralization& t, const Poles& poles, const Lists& neighbours, const Lists& samples_of,
@@ -135,7 +174,7 @@ class RowAssembler {
         candidates_(node_of.size()),
         sums_(nodes) {}
 
-  /// Appends the row of a node, the poles `members`. \return sums to the supernodes
+  /// Appends the edges of a node, the poles `members`, to larger ones. \return sums to the supernodes
   std::array<double, 2> append(std::uint32_t node, std::span<const std::uint32_t> members, std::vector<Entry>& row) {
     sums_.clear();
     std::array<double, 2> super{};
@@ -185,7 +224,7 @@ class RowAssembler {
     candidates_.clear();
     opposite_.clear();
     const auto add = [&](PoleIndex q) {
-      if (!q.valid() || node_of_[q.value] == no_node || node_of_[q.value] == own) return;
+      if (!q.valid() || node_of_[q.value] == no_node || node_of_[q.value] <= own) return;
       candidates_.add(q.value);
       prefetch(poles_.sphere[q]);
     };
@@ -194,10 +233,7 @@ class RowAssembler {
       const PoleIndex other = pair.first.value == p ? pair.second : pair.first;
       add(other);
       if (other.valid()) opposite_.push_back({other.value, s});
-      for (const std::uint32_t neighbour : neighbours_[s]) {
-        add(poles_.of_sample.raw()[neighbour].first);
-        add(poles_.of_sample.raw()[neighbour].second);
-      }
+      for_each_pole_beside(poles_, neighbours_, s, [&](PoleIndex q, std::uint32_t) { add(q); });
     }
     // Pairs chosen by several samples count once, measured at the smallest of them.
     std::sort(opposite_.begin(), opposite_.end());
@@ -225,19 +261,22 @@ void repel_supernodes(SignedGraph& graph) {
 }
 
 /// Gives the poles that are nodes (0 before) their numbers, by the first pole of each. \return how many nodes
-std::uint32_t number_nodes(const Poles& poles, const Lists& neighbours, bool contract, SampleLengthsView isolated,
-                           const Threads& threads, std::vector<std::uint32_t>& node_of) {
+std::uint32_t number_nodes(const Poles& poles, const Lists& neighbours, const Lists& samples_of, bool contract,
+                           const PoleGraphSamples& samples, const Threads& threads,
+                           std::vector<std::uint32_t>& node_of) {
   std::uint32_t nodes = 0;
   if (!contract) {
     for (std::uint32_t& node : node_of)
       if (node < inside_node) node = nodes++;
     return nodes;
   }
-  Contraction clusters(poles, neighbours, node_of, isolated, threads);
+  const Contraction clusters(poles, neighbours, samples_of, node_of, samples, threads);
+  std::vector<std::uint32_t> node_of_first(node_of.size(), no_node);
   for (std::uint32_t p = 0; p < node_of.size(); ++p) {
     if (node_of[p] >= inside_node) continue;
-    const std::uint32_t first = clusters.first_of(p);
-    node_of[p] = first == p ? nodes++ : node_of[first];
+    std::uint32_t& node = node_of_first[clusters.first_of(p)];
+    if (node == no_node) node = nodes++;
+    node_of[p] = node;
   }
   return nodes;
 }
@@ -253,7 +292,7 @@ Lists members_of(const std::vector<std::uint32_t>& node_of, std::uint32_t nodes)
 } // namespace
 
 PoleGraph pole_graph(const Tetrahedralization& t, const VertexStars& stars, const Poles& poles, const Labels& known,
-                     std::span<const std::uint8_t> left_out, SampleLengthsView isolated, bool contract,
+                     std::span<const std::uint8_t> left_out, const PoleGraphSamples& samples, bool contract,
                      const Threads& threads) {
   std::vector<std::uint32_t> node_of(poles.tetrahedron.size(), no_node);
   for (std::uint32_t p = 0; p < poles.tetrahedron.size(); ++p) {
@@ -269,7 +308,7 @@ PoleGraph pole_graph(const Tetrahedralization& t, const VertexStars& stars, cons
   const std::size_t supernodes = some_inside ? 2 : 1;
   const Lists neighbours = sample_neighbours(t, stars, threads);
   const Lists samples_of = samples_of_poles(poles);
-  const std::uint32_t nodes = number_nodes(poles, neighbours, contract, isolated, threads, node_of);
+  const std::uint32_t nodes = number_nodes(poles, neighbours, samples_of, contract, samples, threads, node_of);
   const Lists members = members_of(node_of, nodes);
 
   PoleGraph result;
@@ -277,13 +316,13 @@ PoleGraph pole_graph(const Tetrahedralization& t, const VertexStars& stars, cons
   graph.supernodes.assign(supernodes, {std::vector<float>(nodes, 0.0f)});
   graph.supernode_weight.assign(supernodes, std::vector<double>(supernodes, 0.0));
   auto rows = build_rows<Entry>(threads, nodes, block_with_table(nodes), [&] {
-    return [&, assembler = RowAssembler(t, poles, neighbours, samples_of, node_of, nodes, isolated)](
+    return [&, assembler = RowAssembler(t, poles, neighbours, samples_of, node_of, nodes, samples.isolated)](
                std::size_t i, std::vector<Entry>& row) mutable {
       const auto super = assembler.append(static_cast<std::uint32_t>(i), members[i], row);
       for (std::size_t k = 0; k < supernodes; ++k) graph.supernodes[k].weight[i] = static_cast<float>(super[k]);
     };
   });
-  split_rows(std::move(rows), graph.row_begin, graph.column, graph.weight, threads);
+  mirror_rows(std::move(rows), graph.row_begin, graph.column, graph.weight, threads);
   if (supernodes == 2) repel_supernodes(graph);
   result.node = IndexedArray<PoleIndex, NodeIndex>(poles.tetrahedron.size());
   for (std::uint32_t p = 0; p < node_of.size(); ++p)

@@ -14,7 +14,7 @@ PoleSolution solve_poles(const Scene& scene, const Evidence& evidence, const Con
   std::span<const std::uint8_t> left_out;
   if (options.questionable == Questionable::before) left_out = solved.questionable;
   solved.graph = run.stage("pole_graph", [&] { // §3.1
-    return pole_graph(t, stars, poles, evidence.labels, left_out, measures.isolated(),
+    return pole_graph(t, stars, poles, evidence.labels, left_out, {measures.isolated(), measures.noisy()},
                       options.weights == Weights::evidence, threads);
   });
   solved.partition = run.stage("partition_poles", [&] { // §3.2

@@ -86,8 +86,10 @@ class HandleClosing {
     const auto root = std::find_if(loop.begin(), loop.end(),
                                    [&](std::uint32_t s) { return moves_.labels().on_surface(VertexIndex{s}); });
     if (root == loop.end()) return false;
-    const auto radius = std::min(widest_radius, static_cast<std::uint32_t>((loop.size() + 1) / 2));
-    const auto loops = nearby.at(*root, radius, moves_.scene.threads);
+    // Half around the loop; later all around, for what was closed beside it may leave a handle with a longer loop.
+    const std::size_t radius = round_ > 1 ? loop.size() + 1 : (loop.size() + 1) / 2;
+    const auto loops =
+        nearby.at(*root, std::min(widest_radius, static_cast<std::uint32_t>(radius)), moves_.scene.threads);
     return std::any_of(loops.begin(), loops.end(), [&](const Loop& near) { return close(near); });
   }
 

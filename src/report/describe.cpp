@@ -73,14 +73,12 @@ std::vector<std::string> broken_guarantees(const MeshSummary& mesh, const Report
   return broken;
 }
 
-/// What to try where the samples lie like ground or a façade, and nothing tells which; or where most of the surface was
-/// invented, so that this is hardly a body, and no sensor tells what it is.
-std::string words_on_what_it_is(const Report& report) {
+/// What to try where the samples lie like ground or a façade, and nothing tells which; or where this is hardly a body,
+/// and no sensor tells what it is.
+std::string words_on_what_it_is(const Report& report, bool is_hardly_a_body) {
   const std::optional<Axis>& axis = report.surroundings.likely_facade;
-  constexpr double far_too_much = 1.0 / 3; // statues without their underside have a fifth
   if (!axis)
-    return report.unsupported_area > far_too_much && report.sight_lines == 0 &&
-                   report.surroundings.kind == SceneKind::body
+    return is_hardly_a_body && report.sight_lines == 0 && report.surroundings.kind == SceneKind::body
                ? "; if this is ground with what stands on it, --facade +z leaves it open below; if the scanner stood "
                  "amid the points, --sensor with its place, as --sensor 0,0,0, finds the free space around it"
                : "";
@@ -231,11 +229,14 @@ void describe(const Contradictions& contradictions, Run& run) {
 void describe(const std::vector<DroppedComponent>& dropped, Run& run) {
   auto& all = run.report().dropped_components;
   all.insert(all.end(), dropped.begin(), dropped.end());
-  constexpr double worth_a_word = 0.01; // of the rows
-  for (const DroppedComponent& piece : dropped)
-    if (static_cast<double>(piece.vertices) > worth_a_word * static_cast<double>(run.report().points))
+  constexpr double worth_a_word = 0.01, hardly_noise = 0.1; // of the rows
+  for (const DroppedComponent& piece : dropped) {
+    const double share = static_cast<double>(piece.vertices) / static_cast<double>(run.report().points);
+    if (share > worth_a_word)
       run.warn("a piece with " + std::to_string(piece.vertices) +
-               " vertices was left out as a part that the samples do not bear out; --components all keeps it");
+               " vertices was left out as a part that the samples do not bear out; --components all keeps it" +
+               (share > hardly_noise ? words_on_what_it_is(run.report(), true) : ""));
+  }
 }
 
 void describe(const SamplesApart& samples, Run& run) {
@@ -256,12 +257,12 @@ void describe(const UnsupportedTriangles& unsupported, Run& run) {
   report.unsupported_area = unsupported.share_of_area;
   report.bridged = unsupported.bridged;
   run.count("unsupported", static_cast<double>(std::count(unsupported.marked.begin(), unsupported.marked.end(), 1)));
-  constexpr double usual = 0.1;
+  constexpr double usual = 0.1, far_too_much = 1.0 / 3; // statues without their underside have a fifth
   if (report.unsupported_area > usual && !report.options.trim)
     run.warn(std::to_string(std::lround(100 * report.unsupported_area)) +
              " % of the surface's area was bridged without data: it is invented, no samples bear it out" +
              (report.one_sided ? " (the sensors all lie on one side)" : "") + "; --trim leaves it out" +
-             words_on_what_it_is(report));
+             words_on_what_it_is(report, report.unsupported_area > far_too_much));
 }
 
 void describe(const TurnedOver& turned, Run& run) {

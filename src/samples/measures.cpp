@@ -19,6 +19,16 @@ std::optional<double> given_noise(const Options& options, double diagonal) {
 
 } // namespace
 
+std::vector<std::uint8_t> SampleMeasures::noisy() const {
+  // With less, walls with gaps are hardly ever torn (docs/decisions/0025).
+  constexpr float noisy_in_spacings = 0.125f;
+  if (trusts_all) return {};
+  std::vector<std::uint8_t> noisy(model.noise.size());
+  for (SampleIndex s{0}; s.value < noisy.size(); ++s.value)
+    noisy[s.value] = model.noise[s] > noisy_in_spacings * model.spacing[s];
+  return noisy;
+}
+
 SampleLengths reach_for_poles(const SampleMeasures& measures) {
   // Twice ℓ: from the middle of the noise to where it thins out on either side. Beyond a dozen spacings there are
   // thousands of samples to look at, and none knows better.

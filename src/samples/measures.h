@@ -24,6 +24,8 @@ struct SampleMeasures {
   [[nodiscard]] SampleLengthsView isolated() const {
     return trusts_all ? SampleLengthsView() : SampleLengthsView(model.isolated);
   }
+  /// Not 0 for samples with more noise than an eighth of their spacing; empty where all are trusted.
+  [[nodiscard]] std::vector<std::uint8_t> noisy() const;
 };
 
 /// How far each sample looks for its poles; 0 where the noise is below the spacing; empty: nowhere.

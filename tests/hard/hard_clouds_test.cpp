@@ -111,6 +111,15 @@ Points noisy_railing() {
     return p + 0.7 * Vec3{gaussian(random), gaussian(random), gaussian(random)};
   });
 }
+/// A plate as thick as twelve deviations of its noise, one side of which was not scanned around its middle.
+Points noisy_wall_with_a_gap() {
+  clouds::Random random(3);
+  const Points seen = kept(boxes({{Vec3{0, 0, 0}, Vec3{60, 50, 4}}}, random),
+                           [](const Vec3& p) { return p.z < 4 || std::hypot(p.x - 30, p.y - 25) > 12; });
+  return mapped(seen, [&](const Vec3& p) {
+    return p + 0.35 * Vec3{gaussian(random), gaussian(random), gaussian(random)};
+  });
+}
 /// `lines` half circles from pole to pole with `n` points each.
 Points meridians(unsigned lines, unsigned n) {
   Points points;
@@ -260,6 +269,8 @@ std::vector<HardCloud> of_noise() {
       // What costs more to cut than a bridge of noise is there.
       {"BarsInNoise", noisy_railing, {{}, 65 * 19 * 8 + 65 * 5 * 5 + 5 * 5 * 5 * 20, 0.02, 1, 4}},
       // Between the two only the poles know; the mean planes of the disc's rim do not.
+      // A chain of balls, each hardly larger than the last, leads out through the gap.
+      {"GapInANoisyWall", noisy_wall_with_a_gap, {{}, 60 * 50 * 4, 0.06, 1, 0}},
       {"NoisyDiscOverABall", noisy_disc_over_a_ball,
        told(ball * (1 + 0.6 * 0.25 * 0.09), 0.01, "noise is larger than", 2)},
   };

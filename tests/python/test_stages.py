@@ -133,6 +133,14 @@ class Whole(unittest.TestCase):
         with self.assertRaises(eigencrust.UsageError):
             stages.known_labels(self.tets, self.stars, (100, 0, 0), (100, 0, 0))
 
+    def test_noisy_samples_join_no_chains(self):
+        def nodes(noisy):
+            graph = stages.pole_graph(self.tets, self.stars, self.poles, self.known, noisy=noisy)
+            return graph.graph.node_count()
+
+        self.assertEqual(nodes(np.zeros(1520, bool)), self.graph.graph.node_count)
+        self.assertNotEqual(nodes(np.ones(1520, bool)), self.graph.graph.node_count)
+
     def test_pieces_that_do_not_fit(self):
         other = stages.tetrahedralize(stages.prepare_samples(sphere(50)))
         other_stars = stages.vertex_stars(other)
@@ -158,6 +166,7 @@ class Whole(unittest.TestCase):
             lambda: stages.pole_graph(self.tets, self.stars, other_poles, self.known),
             lambda: stages.pole_graph(self.tets, self.stars, self.poles, other_known),
             lambda: stages.pole_graph(self.tets, self.stars, self.poles, self.known + 9),
+            lambda: stages.pole_graph(self.tets, self.stars, self.poles, self.known, noisy=[True, False]),
             lambda: stages.label_poles(self.tets, self.poles, other_graph, other_first, self.known),
             lambda: stages.label_poles(self.tets, self.poles, self.graph, other_first, self.known),
             lambda: stages.tetrahedron_graph(self.tets, other_known),

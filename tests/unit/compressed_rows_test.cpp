@@ -35,5 +35,32 @@ TEST(CompressedRows, AreTheSameForAnyNumberOfThreads) {
     }
 }
 
+TEST(CompressedRows, AreMirrored) {
+  constexpr std::uint32_t n = 40;
+  const auto value = [](std::uint32_t i, std::uint32_t j) { return (7 * i + 13 * j) % 5; }; // 0: no entry
+  using Entry = std::pair<std::uint32_t, std::uint32_t>;
+  const auto rows = [&](bool whole) {
+    return build_rows<Entry>(n, [&](auto&& visit) {
+      for (std::uint32_t i = 0; i < n; ++i)
+        for (std::uint32_t j = whole ? 0 : i + 1; j < n; ++j)
+          if (const std::uint32_t v = value(std::min(i, j), std::max(i, j)); v > 0 && i != j) visit(i, Entry(j, v));
+    });
+  };
+  for (const unsigned threads : {1u, 3u}) {
+    std::vector<std::uint64_t> begin, expected_begin;
+    std::vector<std::uint32_t> column, expected_column, entry, expected_entry;
+    split_rows(rows(true), expected_begin, expected_column, expected_entry, Threads(threads));
+    mirror_rows(rows(false), begin, column, entry, Threads(threads));
+    ASSERT_GT(column.size(), n);
+    EXPECT_EQ(begin, expected_begin);
+    EXPECT_EQ(column, expected_column);
+    EXPECT_EQ(entry, expected_entry);
+  }
+  std::vector<std::uint64_t> begin;
+  std::vector<std::uint32_t> column, entry;
+  mirror_rows(build_rows<Entry>(0, [](auto&&) {}), begin, column, entry, Threads(1));
+  EXPECT_THAT(begin, ElementsAre(0u));
+}
+
 } // namespace
 } // namespace eigencrust

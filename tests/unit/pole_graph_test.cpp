@@ -58,47 +58,61 @@ struct Expected {
   std::vector<std::map<std::uint32_t, double>> super; // node -> sum
 };
 
-/// Clusters of poles that are nodes: each joins the largest ball of neighbouring samples that nearly coincides with its
-/// own, is larger and not its opposite. The smallest pole of its cluster for each, found by spreading it until nothing
-/// changes.
-std::vector<std::uint32_t> cluster_of(const Prepared& p, const std::vector<bool>& is_node,
-                                      const std::vector<float>& isolated) {
+struct OfSamples {
+  std::vector<float> isolated;
+  std::vector<std::uint8_t> noisy;
+};
+
+/// Clusters of poles that are nodes. From the largest ball on, each takes the first of the largest ball of neighbouring
+/// samples that nearly coincides with its own, is larger and not its opposite; one of noisy samples the largest of all
+/// their firsts that coincides with it as well. The smallest pole of its cluster for each.
+std::vector<std::uint32_t> cluster_of(const Prepared& p, const std::vector<bool>& is_node, const OfSamples& of) {
   const auto& of_sample = p.poles.of_sample.raw();
   const auto& sphere = p.poles.sphere.raw();
-  std::set<Pair> pole_pairs;
-  std::vector<std::uint32_t> up(is_node.size());
-  for (std::uint32_t i = 0; i < up.size(); ++i) up[i] = i;
   const auto is_larger = [&](std::uint32_t a, std::uint32_t b) {
     return sphere[a].radius > sphere[b].radius || (sphere[a].radius == sphere[b].radius && a < b);
   };
+  std::set<Pair> pole_pairs;
+  std::vector<bool> noisy(is_node.size());
+  for (std::uint32_t s = 0; s < of_sample.size(); ++s)
+    for (const PoleIndex a : {of_sample[s].first, of_sample[s].second})
+      if (a.valid() && !of.noisy.empty() && of.noisy[s]) noisy[a.value] = true;
   for (const PolePair& pair : of_sample)
     if (pair.second.valid()) pole_pairs.insert(std::minmax(pair.first.value, pair.second.value));
+  std::vector<std::set<std::uint32_t>> larger(is_node.size());
   for (const auto& [s, other] : delaunay_edges(p)) {
-    if (!isolated.empty() && (isolated[s] > 0 || isolated[other] > 0)) continue;
-    for (const PoleIndex a : {of_sample[s].first, of_sample[s].second})
-      for (const PoleIndex b : {of_sample[other].first, of_sample[other].second}) {
+    if (!of.isolated.empty() && (of.isolated[s] > 0 || of.isolated[other] > 0)) continue;
+    for (PoleIndex a : {of_sample[s].first, of_sample[s].second})
+      for (PoleIndex b : {of_sample[other].first, of_sample[other].second}) {
         if (!a.valid() || !b.valid() || a == b || !is_node[a.value] || !is_node[b.value]) continue;
-        if (!(cosine(sphere[a.value], sphere[b.value]) < -0.93)) continue;
         if (pole_pairs.count(std::minmax(a.value, b.value))) continue;
-        if (is_larger(b.value, up[a.value])) up[a.value] = b.value;
-        if (is_larger(a.value, up[b.value])) up[b.value] = a.value;
+        const auto [low, high] = is_larger(a.value, b.value) ? Pair(b.value, a.value) : Pair(a.value, b.value);
+        if (cosine(sphere[low], sphere[high]) < -0.93) larger[low].insert(high);
       }
   }
-  std::vector<std::uint32_t> cluster(is_node.size());
-  for (std::uint32_t i = 0; i < cluster.size(); ++i) cluster[i] = i;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::uint32_t a = 0; a < up.size(); ++a) {
-      if (cluster[a] == cluster[up[a]]) continue;
-      cluster[a] = cluster[up[a]] = std::min(cluster[a], cluster[up[a]]);
-      changed = true;
+  std::vector<std::uint32_t> order(is_node.size()), first(is_node.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), is_larger);
+  for (const std::uint32_t a : order) {
+    first[a] = a;
+    std::vector<std::uint32_t> up(larger[a].begin(), larger[a].end());
+    std::sort(up.begin(), up.end(), is_larger);
+    if (noisy[a]) {
+      for (const std::uint32_t b : up)
+        if (is_larger(first[b], first[a]) && cosine(sphere[a], sphere[first[b]]) < -0.8) first[a] = first[b];
+    } else if (!up.empty()) {
+      first[a] = first[up.front()];
     }
   }
+  std::map<std::uint32_t, std::uint32_t> smallest;
+  for (std::uint32_t a = 0; a < first.size(); ++a) smallest.emplace(first[a], a);
+  std::vector<std::uint32_t> cluster;
+  for (const std::uint32_t f : first) cluster.push_back(smallest.at(f));
   return cluster;
 }
 
 Expected expected_graph(const Prepared& p, const Labels& known, const std::vector<std::uint8_t>& left_out,
-                        std::size_t supernodes, bool contract = false) {
+                        std::size_t supernodes, const OfSamples* contract = nullptr) {
   Expected e;
   e.super.resize(supernodes);
   const std::uint32_t poles = p.poles.tetrahedron.size();
@@ -108,7 +122,8 @@ Expected expected_graph(const Prepared& p, const Labels& known, const std::vecto
     const bool out = !left_out.empty() && left_out[p.poles.tetrahedron.raw()[pole].value];
     is_node[pole] = label(pole) == Label::unlabelled && !out;
   }
-  const auto cluster = cluster_of(p, is_node, std::vector<float>(contract ? 0 : p.t.sample_count, 1.0f));
+  const auto cluster =
+      cluster_of(p, is_node, contract ? *contract : OfSamples{std::vector<float>(p.t.sample_count, 1.0f), {}});
   e.node.assign(poles, NodeIndex::none);
   for (std::uint32_t pole = 0; pole < poles; ++pole)
     if (is_node[pole]) e.node[pole] = cluster[pole] == pole ? e.nodes++ : e.node[cluster[pole]];
@@ -217,34 +232,68 @@ TEST(PoleGraph, ContractedItIsTheSumOverClusters) {
         clouds::random_box(60, 13), clouds::jittered(clouds::lattice(3, 4, 5), 0.01, 14)}) {
     const Prepared p = clouds::prepare(points);
     const Labels known = known_of(p);
-    const Expected e = expected_graph(p, known, {}, 1, true);
-    contracted += expected_graph(p, known, {}, 1).nodes - e.nodes;
-    expect_equal(pole_graph(p.t, p.stars, p.poles, known, {}, {}, true, Threads(2)), e);
     clouds::Random random(15);
-    std::vector<std::uint8_t> left_out(p.t.tetrahedra.size());
-    for (auto& flag : left_out) flag = random.uniform() < 0.3;
-    expect_equal(pole_graph(p.t, p.stars, p.poles, known, left_out, {}, true, Threads(1)),
-                 expected_graph(p, known, left_out, 1, true));
+    OfSamples some_noisy, all_noisy;
+    all_noisy.noisy.assign(p.t.sample_count, 1);
+    for (std::uint32_t s = 0; s < p.t.sample_count; ++s) some_noisy.noisy.push_back(random.uniform() < 0.2);
+    for (const OfSamples& of : {OfSamples{}, some_noisy, all_noisy}) {
+      const Expected e = expected_graph(p, known, {}, 1, &of);
+      contracted += expected_graph(p, known, {}, 1).nodes - e.nodes;
+      expect_equal(pole_graph(p.t, p.stars, p.poles, known, {}, {{}, of.noisy}, true, Threads(2)), e);
+      std::vector<std::uint8_t> left_out(p.t.tetrahedra.size());
+      for (auto& flag : left_out) flag = random.uniform() < 0.3;
+      expect_equal(pole_graph(p.t, p.stars, p.poles, known, left_out, {{}, of.noisy}, true, Threads(1)),
+                   expected_graph(p, known, left_out, 1, &of));
+    }
   }
-  EXPECT_GT(contracted, 50u);
+  EXPECT_GT(contracted, 150u);
 }
 
 TEST(PoleGraph, IsolatedSamplesContractNothing) {
   const Prepared p = clouds::prepare(clouds::jittered(clouds::sphere(150), 0.005, 16));
   const Labels known = known_of(p);
   clouds::Random random(17);
-  std::vector<float> isolated(p.t.sample_count, 0.0f);
-  for (float& radius : isolated) radius = random.uniform() < 0.5 ? 0.5f : 0.0f;
+  OfSamples of;
+  for (std::uint32_t s = 0; s < p.t.sample_count; ++s) of.isolated.push_back(random.uniform() < 0.5 ? 0.5f : 0.0f);
   std::vector<bool> is_node;
   for (const TetrahedronIndex t : p.poles.tetrahedron) is_node.push_back(known[t] == Label::unlabelled);
-  const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known, {}, SampleLengths(isolated), true, Threads(1));
-  const auto cluster = cluster_of(p, is_node, isolated), of_all = cluster_of(p, is_node, {});
-  EXPECT_NE(cluster, of_all);
-  for (std::uint32_t i = 0; i < cluster.size(); ++i)
-    for (std::uint32_t j = 0; j < i; ++j)
-      if (is_node[i] && is_node[j]) {
-        ASSERT_EQ(g.node.raw()[i] == g.node.raw()[j], cluster[i] == cluster[j]) << i << " " << j;
-      }
+  for (const bool noisy : {false, true}) {
+    of.noisy.assign(p.t.sample_count, noisy ? 1 : 0);
+    const PoleGraph g =
+        pole_graph(p.t, p.stars, p.poles, known, {}, {SampleLengths(of.isolated), of.noisy}, true, Threads(1));
+    const auto cluster = cluster_of(p, is_node, of), of_all = cluster_of(p, is_node, {{}, of.noisy});
+    EXPECT_NE(cluster, of_all);
+    for (std::uint32_t i = 0; i < cluster.size(); ++i)
+      for (std::uint32_t j = 0; j < i; ++j)
+        if (is_node[i] && is_node[j]) {
+          ASSERT_EQ(g.node.raw()[i] == g.node.raw()[j], cluster[i] == cluster[j]) << i << " " << j;
+        }
+  }
+}
+
+/// Poles in noise are nowhere farther from the first of their node than their balls nearly coincide; along chains some
+/// are.
+TEST(PoleGraph, NoisyPolesJoinAlongNoChains) {
+  const Prepared p = clouds::prepare(clouds::jittered(clouds::sphere(2000), 0.02, 18));
+  const auto& sphere = p.poles.sphere.raw();
+  const auto farthest = [&](const std::vector<std::uint8_t>& noisy) {
+    const PoleGraph g = pole_graph(p.t, p.stars, p.poles, known_of(p), {}, {{}, noisy}, true, Threads(1));
+    std::vector<std::uint32_t> first(g.graph.node_count(), NodeIndex::none);
+    const auto for_each = [&](auto&& visit) {
+      for (std::uint32_t i = 0; i < g.node.size(); ++i)
+        if (g.node.raw()[i].valid()) visit(i, first[g.node.raw()[i].value]);
+    };
+    for_each([&](std::uint32_t i, std::uint32_t& f) {
+      if (f == NodeIndex::none || sphere[i].radius > sphere[f].radius) f = i;
+    });
+    double largest = -1;
+    for_each([&](std::uint32_t i, std::uint32_t f) {
+      if (i != f) largest = std::max(largest, cosine(sphere[i], sphere[f]));
+    });
+    return largest;
+  };
+  EXPECT_LT(farthest(std::vector<std::uint8_t>(p.t.sample_count, 1)), -0.8);
+  EXPECT_GT(farthest({}), -0.5);
 }
 
 TEST(PoleGraph, IsSymmetricAndTheSameForAnyThreads) {

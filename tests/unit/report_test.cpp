@@ -6,6 +6,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "report/describe.h"
+#include "report/run.h"
 #include "shapes.h"
 
 namespace eigencrust {
@@ -141,6 +143,32 @@ TEST(Report, EveryStatusHasAName) {
   for (const SolverStatus status : {converged, signs_stable, consistent, not_converged, trivial})
     names.emplace_back(to_string(status));
   EXPECT_THAT(names, testing::ElementsAre("converged", "signs_stable", "consistent", "not_converged", "trivial"));
+}
+
+/// Of 1000 points.
+std::vector<std::string> warnings_of_a_piece_left_out(std::uint32_t vertices, Report report) {
+  report.points = 1000;
+  Observer observer;
+  Run run(report, observer);
+  describe(std::vector<DroppedComponent>{{vertices, 2 * vertices, 0.1, {}}}, run);
+  EXPECT_EQ(report.dropped_components.size(), 1u);
+  return report.warnings;
+}
+
+TEST(Report, WhatALargePieceLeftOutMayBeIsTold) {
+  using testing::AllOf, testing::ElementsAre, testing::HasSubstr, testing::IsEmpty, testing::Not;
+  const auto leaves_out = HasSubstr("was left out");
+  const auto may_be_ground = HasSubstr("--facade +z"), was_amid = HasSubstr("--sensor");
+  EXPECT_THAT(warnings_of_a_piece_left_out(10, {}), IsEmpty());
+  EXPECT_THAT(warnings_of_a_piece_left_out(90, {}), ElementsAre(AllOf(leaves_out, Not(was_amid))));
+  EXPECT_THAT(warnings_of_a_piece_left_out(300, {}), ElementsAre(AllOf(leaves_out, may_be_ground, was_amid)));
+  Report seen;
+  seen.sight_lines = 1000;
+  EXPECT_THAT(warnings_of_a_piece_left_out(300, seen), ElementsAre(AllOf(leaves_out, Not(may_be_ground))));
+  Report lies_like_ground;
+  lies_like_ground.surroundings.likely_facade = Axis::plus_z;
+  EXPECT_THAT(warnings_of_a_piece_left_out(300, lies_like_ground),
+              ElementsAre(AllOf(leaves_out, may_be_ground, HasSubstr("--base"), Not(was_amid))));
 }
 
 } // namespace
