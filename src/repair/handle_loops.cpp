@@ -159,9 +159,19 @@ std::vector<std::vector<std::uint32_t>> LoopsNearby::at(std::uint32_t root, std:
   take(root);
   std::vector<NamedTriangle> triangles;
   std::size_t looked_at = 0, looked_through = 0;
+  const auto was_looked_at = [&](std::uint32_t v) { return number_[v] < looked_at; };
   for (std::uint32_t step = 0; step <= radius; ++step) {
-    for (const std::size_t ring_end = part_.size(); looked_at < ring_end; ++looked_at)
+    for (const std::size_t ring_end = part_.size(); looked_at < ring_end; ++looked_at) {
+      const auto before = static_cast<std::ptrdiff_t>(triangles.size());
       triangles_at_(part_[looked_at], triangles);
+      // Each once, from the first of its corners.
+      triangles.erase(std::remove_if(triangles.begin() + before, triangles.end(),
+                                     [&](const NamedTriangle& triangle) {
+                                       return std::any_of(triangle.corners.begin(), triangle.corners.end(),
+                                                          was_looked_at);
+                                     }),
+                      triangles.end());
+    }
     if (step == radius) break; // the last ring takes no more vertices
     for (; looked_through < triangles.size(); ++looked_through)
       for (const std::uint32_t v : triangles[looked_through].corners) take(v);
@@ -169,9 +179,7 @@ std::vector<std::vector<std::uint32_t>> LoopsNearby::at(std::uint32_t root, std:
   visited_ += part_.size();
   std::sort(triangles.begin(), triangles.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   std::vector<Triangle> inner;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const auto& [name, corners] = triangles[i];
-    if (i > 0 && triangles[i - 1].name == name) continue;
+  for (const auto& [name, corners] : triangles) {
     const Triangle in_part{number_[corners[0]], number_[corners[1]], number_[corners[2]]};
     if (std::find(in_part.begin(), in_part.end(), none) == in_part.end()) inner.push_back(in_part);
   }

@@ -96,7 +96,6 @@ Moves::Moves(const MoveScene& s, TetrahedronLabels& labels, Prices prices)
       all_(labels),
       priced_(s.t, s.stars, s.energy, s.model.spacing, std::move(prices.price), labels, s.threads),
       repair_(s.t, s.stars, s.energy.known, priced_),
-      link_(s.t, s.stars, labels.labels()),
       seen_(s.t.tetrahedra.size(), 0),
       owner_(s.t.positions.size(), SurfaceFronts::none) {}
 
@@ -196,15 +195,9 @@ void Moves::relax(const std::vector<TetrahedronIndex>& turned) {
 
 bool Moves::turn_back(TetrahedronIndex i) {
   constexpr double least = std::numeric_limits<float>::epsilon(); // of the terms, which are floats
-  if (!(priced_.cost_of(i) < -least)) return false;
-  const std::size_t then = priced_.now();
+  if (!priced_.is_simple(i) || !(priced_.cost_of(i) < -least)) return false;
   priced_.turn(i);
-  const auto& v = scene.t.tetrahedra[i];
-  if (priced_.euler_change(i) == 0 &&
-      std::all_of(v.begin(), v.end(), [&](VertexIndex s) { return scene.t.is_corner(s) || link_.is_disc(s); }))
-    return true;
-  priced_.back_to(then);
-  return false;
+  return true;
 }
 
 void Moves::make(const Outcome& outcome) {

@@ -92,7 +92,6 @@ class Moves {
   TetrahedronLabels& all_;
   PricedLabels priced_;
   StarRepair repair_;
-  LinkCheck link_;
   std::vector<TetrahedronIndex> speck_;
   std::vector<std::uint8_t> seen_;   ///< tetrahedra, while specks are looked for
   std::vector<std::uint32_t> owner_; ///< while pieces are counted: which front reached the sample

@@ -2,6 +2,7 @@
 #include "repair/priced_labels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/tetrahedron.h"
@@ -62,6 +63,22 @@ double PricedLabels::price_of_length(TetrahedronIndex i, std::size_t k) const {
 void PricedLabels::flip(TetrahedronIndex i) {
   labels_.turn(i);
   for (const VertexIndex s : t_.tetrahedra[i]) inside_[s] += labels_[i] == Label::inside ? 1u : ~0u;
+}
+
+bool PricedLabels::is_simple(TetrahedronIndex i) const {
+  const Label label = labels_[i];
+  std::array<std::size_t, 4> across{}; // of its triangles on the surface
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const TetrahedronIndex n = t_.neighbours[i][k];
+    if (!n.valid()) return false;
+    if (labels_[n] != label) across[count++] = k;
+  }
+  // They are a disc, and with nothing else does it touch the surface: no vertex beside one triangle, no edge beside
+  // two.
+  if (count == 1) return !on_surface(t_.tetrahedra[i][across[0]]);
+  if (count == 2) return rest_of_ring(i, across[0], across[1], label);
+  return count == 3;
 }
 
 std::vector<TetrahedronIndex> PricedLabels::turned_since(std::size_t then) const {

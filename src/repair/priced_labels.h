@@ -26,6 +26,10 @@ class PricedLabels {
   /// What turning it would add to the cost.
   [[nodiscard]] double cost_of(TetrahedronIndex i) const;
 
+  /// Where all stars are discs: are they after it is turned, and pieces and handles the same? (A simple point, as in
+  /// digital topology.) Not where it lies at the cube.
+  [[nodiscard]] bool is_simple(TetrahedronIndex i) const;
+
   /// What turning it would add to the Euler characteristic of the surface.
   [[nodiscard]] std::int64_t euler_change(TetrahedronIndex i) const;
 

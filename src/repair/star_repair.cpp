@@ -49,7 +49,7 @@ bool StarRepair::run(std::vector<std::uint32_t> round, std::span<const Tetrahedr
 }
 
 bool StarRepair::mend(VertexIndex s) {
-  if (link_.is_disc(s)) return true;
+  if (!labels_.on_surface(s) || link_.is_disc(s)) return true;
   star_.fill(s);
   for (bool mended = false; !mended;) {
     if (!mend_edges()) return false;

@@ -5,6 +5,7 @@
 
 #include "moves.h"
 #include "repair/surface_fronts.h"
+#include "repair/unsound_stars.h"
 
 namespace eigencrust {
 namespace {
@@ -120,6 +121,29 @@ TEST(PricedLabels, GoBackExactlyAndCountTheEulerCharacteristic) {
     differences.insert(difference);
   }
   EXPECT_GT(differences.size(), 2u); // else the test would say little
+}
+
+TEST(PricedLabels, SimpleIsWhatLeavesDiscsPiecesAndHandles) {
+  std::size_t simple = 0, others = 0;
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    MoveStage stage = random_stage(200, 0.5, seed);
+    stage.moves().make_manifold({});
+    const Tetrahedralization& t = stage.p.t;
+    PricedLabels priced(t, stage.p.stars, stage.energy, stage.model.spacing, {}, stage.labels, stage.threads);
+    LinkCheck link(t, stage.p.stars, priced.all());
+    for (TetrahedronIndex i{0}; i.value < t.tetrahedra.size(); ++i.value) {
+      if (t.touches_cube(i)) continue;
+      const bool found = priced.is_simple(i), keeps_euler = priced.euler_change(i) == 0;
+      priced.turn(i);
+      const auto& v = t.tetrahedra[i];
+      const bool discs = std::all_of(v.begin(), v.end(), [&](VertexIndex s) { return link.is_disc(s); });
+      priced.turn(i);
+      ASSERT_EQ(found, keeps_euler && discs) << i.value;
+      ++(found ? simple : others);
+    }
+  }
+  EXPECT_GT(simple, 300u);
+  EXPECT_GT(others, 300u);
 }
 
 TEST(SurfaceFronts, CountThePiecesThatTheSamplesTouch) {
