@@ -20,7 +20,7 @@ std::optional<double> given_noise(const Options& options, double diagonal) {
 } // namespace
 
 std::vector<std::uint8_t> SampleMeasures::noisy() const {
-  // With less, walls with gaps are hardly ever torn (docs/decisions/0025).
+  // Were it 0.2, most walls with gaps would be torn (docs/decisions/0025).
   constexpr float noisy_in_spacings = 0.125f;
   if (trusts_all) return {};
   std::vector<std::uint8_t> noisy(model.noise.size());
