@@ -2,7 +2,6 @@
 // §3.1: the signed graph on the poles.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <eigencrust/stages.h>
 
@@ -109,8 +108,9 @@ class Contraction {
   [[nodiscard]] std::uint32_t first_of(std::uint32_t p) const { return first_[p]; }
 
  private:
-  // Between -0.98 and -0.9 all raw scans come out the same, at -0.8 clusters of the raw armadillo hold poles of both
-  // sides. In noise, the first ball may differ more from one that joins it than any two along the chain to it.
+  // Between -0.98 and -0.9 all raw scans come out the same but for a handle, at -0.8 clusters of the raw armadillo hold
+  // poles of both sides. In noise the first ball may differ more from one that joins it than its neighbours do
+  // (docs/decisions/0025).
   static constexpr double nearly_one = -0.93, nearly_one_with_first = -0.8;
 
   [[nodiscard]] bool is_larger(std::size_t p, std::size_t q) const {
@@ -139,6 +139,10 @@ class Contraction {
     while (!waiting_.empty()) {
       const std::uint32_t here = waiting_.back();
       const std::size_t before = waiting_.size();
+      if (first_[here] != no_node) { // one of those before led to it
+        waiting_.pop_back();
+        continue;
+      }
       for (const std::uint32_t q : may_join[here])
         if (first_[q] == no_node) waiting_.push_back(q);
       if (waiting_.size() > before) continue;
